@@ -1,0 +1,44 @@
+//! Shapes in space, and what a fitting or picking program asks of them:
+//! distances, feet of perpendiculars, angles.
+//!
+//! ```
+//! use nalgebra::{Point3, Vector3};
+//! use pomona_geometry::{Line, Sphere};
+//!
+//! let apple = Sphere::new(Point3::new(0.0, 0.0, 0.8), 0.04).unwrap();
+//! let branch = Line::new(Point3::new(-1.0, -0.05, 0.8), Vector3::x()).unwrap();
+//!
+//! // The direction in which to pick: from the centre to the branch's nearest point.
+//! let foot = branch.foot(&apple.center);
+//! let direction = (foot - apple.center).normalize();
+//! assert!((direction - Vector3::new(0.0, -1.0, 0.0)).norm() < 1e-12);
+//! ```
+//!
+//! # Concepts
+//!
+//! Every shape is a plain value of `f64`s whose constructor refuses what is
+//! not that shape (a radius that is not positive, a direction without length,
+//! anything not finite) by returning `None`. Lengths are in one unit
+//! throughout (metres in this project), angles in radians. The shapes belong
+//! to no frame: the caller keeps the points of one frame together.
+//!
+//! # Not here
+//!
+//! Data sets, noise and fitting: those are `pomona-fit`. Rigid transforms
+//! between named frames: those are `pomona-transforms`.
+
+mod aabb;
+mod angle;
+mod cylinder;
+mod line;
+mod plane;
+mod segment;
+mod sphere;
+
+pub use aabb::Aabb;
+pub use angle::{angle_between, angle_between_axes};
+pub use cylinder::Cylinder;
+pub use line::Line;
+pub use plane::Plane;
+pub use segment::Segment;
+pub use sphere::Sphere;

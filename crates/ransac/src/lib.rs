@@ -1,1 +1,114 @@
-//! To be written.
+//! A RANSAC engine: robust fitting of any model to any data, given a way to
+//! fit the model to a few of them and to measure how far the others lie off.
+//!
+//! The engine knows no geometry and owns no data. Implement [`Estimator`] for
+//! a view of your own data, and put the rest together from parts:
+//!
+//! ```
+//! use pomona_ransac::{Candidates, Estimator, FixedCount, InlierCount, Ransac, RefitOnce};
+//! use rand_chacha::{ChaCha8Rng, rand_core::SeedableRng};
+//! use std::ops::Range;
+//!
+//! /// Points of a plane, and lines y = slope · x + intercept through them.
+//! struct Points { x: Vec<f64>, y: Vec<f64> }
+//!
+//! #[derive(Clone)]
+//! struct Line { slope: f64, intercept: f64 }
+//!
+//! impl Estimator for Points {
+//!     type Model = Line;
+//!     const SAMPLE_SIZE: usize = 2;
+//!
+//!     fn len(&self) -> usize { self.x.len() }
+//!
+//!     fn fit(&self, sample: &[usize], candidates: &mut Candidates<Line>) {
+//!         let [i, j] = [sample[0], sample[1]];
+//!         let slope = (self.y[j] - self.y[i]) / (self.x[j] - self.x[i]);
+//!         if slope.is_finite() {
+//!             candidates.push(Line { slope, intercept: self.y[i] - slope * self.x[i] });
+//!         }
+//!     }
+//!
+//!     fn refit(&self, inliers: &[usize], _current: &Line) -> Option<Line> {
+//!         let n = inliers.len() as f64;
+//!         let mean = |v: &[f64]| inliers.iter().map(|&i| v[i]).sum::<f64>() / n;
+//!         let (mx, my) = (mean(&self.x), mean(&self.y));
+//!         let sxy: f64 = inliers.iter().map(|&i| (self.x[i] - mx) * (self.y[i] - my)).sum();
+//!         let sxx: f64 = inliers.iter().map(|&i| (self.x[i] - mx).powi(2)).sum();
+//!         (sxx > 0.0).then(|| Line { slope: sxy / sxx, intercept: my - sxy / sxx * mx })
+//!     }
+//!
+//!     fn residuals(&self, line: &Line, block: Range<usize>, out: &mut [f64]) {
+//!         for (r, i) in out.iter_mut().zip(block) {
+//!             *r = (self.y[i] - line.slope * self.x[i] - line.intercept).abs();
+//!         }
+//!     }
+//! }
+//!
+//! // Forty points on y = 2x + 1, and every fourth of them thrown far off.
+//! let x: Vec<f64> = (0..40).map(f64::from).collect();
+//! let y = x.iter().map(|x| 2.0 * x + 1.0 + if x % 4.0 == 0.0 { 50.0 + x * x } else { 0.0 });
+//! let points = Points { y: y.collect(), x };
+//!
+//! let report = Ransac::new(InlierCount::within(0.1))
+//!     .local_optimization(RefitOnce)
+//!     .stopping(FixedCount::new(200))
+//!     .run(&points, &mut ChaCha8Rng::seed_from_u64(7))?;
+//! assert_eq!(report.inliers.len(), 30);
+//! assert!((report.model.slope - 2.0).abs() < 1e-12);
+//! # Ok::<(), pomona_ransac::RansacError>(())
+//! ```
+//!
+//! # Concepts
+//!
+//! - An [`Estimator`] fits models to a minimal sample, refits a model to its
+//!   inliers, and measures the residuals of one *block* of data at a time.
+//! - A [`Sampler`] picks the sample; a [`Constraint`] may refuse the sample,
+//!   or the model before anything is scored, and is asked again after every refit.
+//! - A [`Scorer`] turns the residuals of a block into a gain of at most one per datum.
+//!   That ceiling is what lets the engine give up on a model early, without ever
+//!   changing the outcome.
+//! - A [`LocalOptimization`] refits; a [`Stopping`] rule ends the search.
+//! - The [`Report`] is computed from the final model alone, so that its score,
+//!   inliers and residuals belong together.
+//!
+//! Randomness is a counter: iteration `i` draws from a generator keyed by
+//! (seed, `i`) and by nothing else, where the seed is one number taken from
+//! the caller's generator. The outcome of a search is the same whichever order
+//! its iterations are computed in.
+//!
+//! # Not here
+//!
+//! Geometry, point clouds, files. Primitives in space (sphere, line, plane,
+//! cylinder) fitted with this engine are the crate `pomona-fit`.
+//!
+//! # References
+//!
+//! Fischler and Bolles 1981, "Random sample consensus", doi 10.1145/358669.358692.
+//! Torr and Zisserman 2000, "MLESAC", doi 10.1006/cviu.1999.0832 (the score [`Msac`]).
+
+mod candidates;
+mod confidence;
+mod constraint;
+mod draws;
+mod engine;
+mod error;
+mod estimator;
+mod local;
+mod report;
+mod sampler;
+mod scorer;
+mod stopping;
+
+pub use candidates::Candidates;
+pub use confidence::Confidence;
+pub use constraint::{Chain, Constraint, Constraints, Unconstrained};
+pub use draws::Draws;
+pub use engine::Ransac;
+pub use error::RansacError;
+pub use estimator::{BLOCK, Estimator};
+pub use local::{LeastSquares, LocalOptimization, NoRefit, Refiner, RefitOnce, Scored};
+pub use report::{Counts, MAX_RULES, Rejections, Report, ResidualStatistics};
+pub use sampler::{Sampler, Uniform};
+pub use scorer::{InlierCount, Msac, Scorer, Threshold};
+pub use stopping::{FixedCount, Progress, StopReason, Stopping};

@@ -1,0 +1,124 @@
+use crate::Candidates;
+use std::ops::Range;
+
+/// How many data one scoring call sees at most: a block.
+///
+/// A thousand points of three f32 coordinates are 12 kB, which stay in the first-level
+/// cache, and between blocks the engine may give up on a model.
+pub const BLOCK: usize = 1024;
+
+/// A model to fit, and a view of the data to fit it to.
+///
+/// The three operations stay apart: a minimal [`fit`](Self::fit), a
+/// [`refit`](Self::refit) to many data, and measuring one block of data against a model.
+/// The data are numbered `0..len()`; how they are stored is the estimator's own affair.
+///
+/// Only [`residuals`](Self::residuals) has to be written for scoring. An
+/// estimator with a faster way (compare squared distances, skip the square root,
+/// use wide registers) overrides [`count_within`](Self::count_within),
+/// [`truncated_gain`](Self::truncated_gain) and
+/// [`select_within`](Self::select_within), and these must then agree with each
+/// other to the last datum.
+pub trait Estimator: Sync {
+    /// What is fitted.
+    type Model: Clone + Send + Sync;
+
+    /// How many data a minimal sample has.
+    const SAMPLE_SIZE: usize;
+
+    /// How many models one minimal sample can give at most.
+    const MAX_MODELS: usize = 1;
+
+    /// How many data there are.
+    fn len(&self) -> usize;
+
+    /// Whether there are no data.
+    fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Adds to `candidates` every model through a sample of [`SAMPLE_SIZE`](Self::SAMPLE_SIZE)
+    /// distinct data; none where the sample is degenerate or not finite.
+    fn fit(&self, sample: &[usize], candidates: &mut Candidates<Self::Model>);
+
+    /// The model that fits all of `inliers` best, starting from `current`;
+    /// `None` where they do not determine one.
+    fn refit(&self, inliers: &[usize], current: &Self::Model) -> Option<Self::Model>;
+
+    /// Writes the unsigned residuals of the data `block` into `out`, which is as long.
+    ///
+    /// NaN stands for a datum that no model explains; it is never an inlier.
+    fn residuals(&self, model: &Self::Model, block: Range<usize>, out: &mut [f64]);
+
+    /// How many data of `block`, at most [`BLOCK`], have a residual of at most `threshold`.
+    fn count_within(&self, model: &Self::Model, block: Range<usize>, threshold: f64) -> usize {
+        self.fold_residuals(model, block, 0, |count, _, r| {
+            count + usize::from(r <= threshold)
+        })
+    }
+
+    /// Σ max(0, 1 − (residual/threshold)²) over `block`, which has at most [`BLOCK`] data.
+    fn truncated_gain(&self, model: &Self::Model, block: Range<usize>, threshold: f64) -> f64 {
+        self.fold_residuals(model, block, 0.0, |gain, _, r| {
+            if r <= threshold {
+                gain + (1.0 - (r / threshold).powi(2))
+            } else {
+                gain
+            }
+        })
+    }
+
+    /// Appends to `out` the data of `block`, at most [`BLOCK`], with a residual
+    /// of at most `threshold`, in ascending order.
+    fn select_within(
+        &self,
+        model: &Self::Model,
+        block: Range<usize>,
+        threshold: f64,
+        out: &mut Vec<usize>,
+    ) {
+        self.fold_residuals(model, block, (), |(), i, r| {
+            if r <= threshold {
+                out.push(i);
+            }
+        });
+    }
+
+    /// Folds `f(state, datum, residual)` over the data of `block`, at most [`BLOCK`], in ascending order.
+    fn fold_residuals<T>(
+        &self,
+        model: &Self::Model,
+        block: Range<usize>,
+        start: T,
+        mut f: impl FnMut(T, usize, f64) -> T,
+    ) -> T {
+        let mut buffer = [f64::NAN; BLOCK];
+        let residuals = &mut buffer[..block.len().min(BLOCK)];
+        self.residuals(model, block.clone(), residuals);
+        residuals
+            .iter()
+            .zip(block)
+            .fold(start, |state, (&r, i)| f(state, i, r))
+    }
+}
+
+/// The data `0..len` as blocks of at most [`BLOCK`].
+pub(crate) fn blocks(len: usize) -> impl Iterator<Item = Range<usize>> {
+    (0..len)
+        .step_by(BLOCK)
+        .map(move |start| start..(start + BLOCK).min(len))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn blocks_cover_everything_once() {
+        for len in [0, 1, BLOCK - 1, BLOCK, BLOCK + 1, 3 * BLOCK + 7] {
+            let all: Vec<usize> = blocks(len).flatten().collect();
+            assert_eq!(all, (0..len).collect::<Vec<_>>());
+            assert!(blocks(len).all(|b| b.len() <= BLOCK));
+        }
+    }
+}

@@ -1,0 +1,150 @@
+use crate::{Constraints, Counts, Estimator, Scorer};
+
+/// A model with its score.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Scored<M> {
+    /// The model.
+    pub model: M,
+    /// Its score.
+    pub score: f64,
+}
+
+/// What a [`LocalOptimization`] may do: select inliers, refit under the constraints, score.
+pub struct Refiner<'a, E: Estimator, S, C> {
+    pub(crate) estimator: &'a E,
+    pub(crate) scorer: &'a S,
+    pub(crate) constraints: &'a C,
+    pub(crate) inliers: &'a mut Vec<usize>,
+    pub(crate) counts: &'a mut Counts,
+}
+
+impl<E: Estimator, S: Scorer<E>, C: Constraints<E>> Refiner<'_, E, S, C> {
+    /// The model refitted to its own inliers; `None` where they do not
+    /// determine one or a constraint refuses it.
+    pub fn refit(&mut self, model: &E::Model) -> Option<E::Model> {
+        self.scorer.select(self.estimator, model, self.inliers);
+        self.counts.refits += 1;
+        let refitted = self.estimator.refit(self.inliers, model)?;
+        if let Some(rule) = self.constraints.refusing_model(self.estimator, &refitted) {
+            self.counts.rejection(rule).refits += 1;
+            return None;
+        }
+        Some(refitted)
+    }
+
+    /// The score of a model where it exceeds `bound`.
+    pub fn score(&self, model: &E::Model, bound: f64) -> Option<f64> {
+        self.scorer.score(self.estimator, model, bound)
+    }
+}
+
+/// Betters a model by refitting it to its inliers.
+pub trait LocalOptimization<E: Estimator> {
+    /// Called for each new best model of the search; leaves it as it is by default.
+    fn improve<S: Scorer<E>, C: Constraints<E>>(
+        &self,
+        _refiner: &mut Refiner<'_, E, S, C>,
+        best: Scored<E::Model>,
+    ) -> Scored<E::Model> {
+        best
+    }
+
+    /// Called once, for the best model of all.
+    fn finish<S: Scorer<E>, C: Constraints<E>>(
+        &self,
+        refiner: &mut Refiner<'_, E, S, C>,
+        best: Scored<E::Model>,
+    ) -> Scored<E::Model>;
+}
+
+/// Leaves the best hypothesis as it was drawn.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct NoRefit;
+
+impl<E: Estimator> LocalOptimization<E> for NoRefit {
+    fn finish<S: Scorer<E>, C: Constraints<E>>(
+        &self,
+        _: &mut Refiner<'_, E, S, C>,
+        best: Scored<E::Model>,
+    ) -> Scored<E::Model> {
+        best
+    }
+}
+
+/// Refits the best hypothesis once to its inliers, and takes the result even
+/// where its score is lower; only a constraint can refuse it.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct RefitOnce;
+
+impl<E: Estimator> LocalOptimization<E> for RefitOnce {
+    fn finish<S: Scorer<E>, C: Constraints<E>>(
+        &self,
+        refiner: &mut Refiner<'_, E, S, C>,
+        best: Scored<E::Model>,
+    ) -> Scored<E::Model> {
+        match refiner.refit(&best.model) {
+            Some(model) => {
+                let score = refiner
+                    .score(&model, f64::NEG_INFINITY)
+                    .unwrap_or(f64::NEG_INFINITY);
+                Scored { model, score }
+            }
+            None => best,
+        }
+    }
+}
+
+/// Refits each new best model to its inliers again and again, as long as the score grows.
+#[derive(Clone, Copy, Debug)]
+pub struct LeastSquares {
+    max_rounds: usize,
+}
+
+impl Default for LeastSquares {
+    /// At most ten rounds.
+    fn default() -> Self {
+        Self { max_rounds: 10 }
+    }
+}
+
+impl LeastSquares {
+    /// At most `max_rounds` refits in a row.
+    pub fn rounds(max_rounds: usize) -> Self {
+        Self { max_rounds }
+    }
+
+    fn climb<E: Estimator, S: Scorer<E>, C: Constraints<E>>(
+        self,
+        refiner: &mut Refiner<'_, E, S, C>,
+        mut best: Scored<E::Model>,
+    ) -> Scored<E::Model> {
+        for _ in 0..self.max_rounds {
+            let Some(model) = refiner.refit(&best.model) else {
+                break;
+            };
+            let Some(score) = refiner.score(&model, best.score) else {
+                break;
+            };
+            best = Scored { model, score };
+        }
+        best
+    }
+}
+
+impl<E: Estimator> LocalOptimization<E> for LeastSquares {
+    fn improve<S: Scorer<E>, C: Constraints<E>>(
+        &self,
+        refiner: &mut Refiner<'_, E, S, C>,
+        best: Scored<E::Model>,
+    ) -> Scored<E::Model> {
+        self.climb(refiner, best)
+    }
+
+    fn finish<S: Scorer<E>, C: Constraints<E>>(
+        &self,
+        refiner: &mut Refiner<'_, E, S, C>,
+        best: Scored<E::Model>,
+    ) -> Scored<E::Model> {
+        self.climb(refiner, best)
+    }
+}

@@ -1,0 +1,108 @@
+use crate::{Estimator, StopReason, estimator::blocks};
+
+/// How many constraint rules a report counts apart; further rules count with the last one.
+pub const MAX_RULES: usize = 8;
+
+/// What one constraint refused.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Rejections {
+    /// Name of the constraint.
+    pub constraint: &'static str,
+    /// Samples refused before a model was fitted.
+    pub samples: u64,
+    /// Models refused before they were scored.
+    pub models: u64,
+    /// Refits refused; the model before the refit was kept.
+    pub refits: u64,
+}
+
+/// What a search did.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Counts {
+    /// Samples drawn.
+    pub draws: u64,
+    /// Samples from which no model came.
+    pub degenerate: u64,
+    /// Models scored, in full or until they were given up.
+    pub hypotheses: u64,
+    /// Of these, how many could not exceed the best score of their time.
+    pub pruned: u64,
+    /// Refits tried.
+    pub refits: u64,
+    /// What each constraint refused; the first [`rules`](Self::rules) entries are in use.
+    pub rejections: [Rejections; MAX_RULES],
+    /// How many entries of `rejections` are in use.
+    pub rules: usize,
+}
+
+impl Counts {
+    /// What each constraint refused, in the order in which they were added.
+    pub fn rejections(&self) -> &[Rejections] {
+        &self.rejections[..self.rules]
+    }
+
+    pub(crate) fn rejection(&mut self, rule: usize) -> &mut Rejections {
+        &mut self.rejections[rule.min(MAX_RULES - 1)]
+    }
+}
+
+/// Size of the inliers' residuals.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ResidualStatistics {
+    /// Root mean square.
+    pub rms: f64,
+    /// Mean of the absolute values.
+    pub mean: f64,
+    /// Largest.
+    pub max: f64,
+}
+
+/// The outcome of a search; everything in it belongs to the final `model`.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Report<M> {
+    /// The final model, after the last refit.
+    pub model: M,
+    /// Its inliers, ascending.
+    pub inliers: Vec<usize>,
+    /// Its score.
+    pub score: f64,
+    /// Its inliers' residuals.
+    pub residuals: ResidualStatistics,
+    /// Why the search ended.
+    pub stopped: StopReason,
+    /// What the search did.
+    pub counts: Counts,
+}
+
+/// Statistics of the residuals of `inliers`, which ascend.
+pub(crate) fn residual_statistics<E: Estimator>(
+    estimator: &E,
+    model: &E::Model,
+    inliers: &[usize],
+) -> ResidualStatistics {
+    if inliers.is_empty() {
+        return ResidualStatistics::default();
+    }
+    let mut next = inliers.iter().copied().peekable();
+    let (mut squares, mut sum, mut max) = (0.0, 0.0, 0.0_f64);
+    for block in blocks(estimator.len()) {
+        if next.peek().is_none_or(|&i| i >= block.end) {
+            continue;
+        }
+        estimator.fold_residuals(model, block, (), |(), i, r| {
+            if next.next_if_eq(&i).is_some() {
+                squares += r * r;
+                sum += r;
+                max = max.max(r);
+            }
+        });
+    }
+    let n = inliers.len() as f64;
+    ResidualStatistics {
+        rms: (squares / n).sqrt(),
+        mean: sum / n,
+        max,
+    }
+}

@@ -1,0 +1,105 @@
+use crate::{Estimator, estimator::blocks};
+use std::ops::Range;
+
+/// How far from a model a datum may lie and still support it.
+///
+/// A plain number is the same distance for every model; a closure
+/// computes it from the model, `|sphere: &Sphere| sphere.radius / 5.0` say.
+pub trait Threshold<M>: Sync {
+    /// The distance for `model`.
+    fn for_model(&self, model: &M) -> f64;
+}
+
+impl<M> Threshold<M> for f64 {
+    fn for_model(&self, _: &M) -> f64 {
+        *self
+    }
+}
+
+impl<M, F: Fn(&M) -> f64 + Sync> Threshold<M> for F {
+    fn for_model(&self, model: &M) -> f64 {
+        self(model)
+    }
+}
+
+/// Says how well a model explains the data: the sum of a gain between 0 and 1 for each datum.
+///
+/// More is better. That no datum gains more than 1 is what bounds a score from
+/// above while part of the data is still unseen.
+pub trait Scorer<E: Estimator>: Sync {
+    /// Sum of the gains of the data of `block`, at most [`BLOCK`](crate::BLOCK) of them.
+    fn block_gain(&self, estimator: &E, model: &E::Model, block: Range<usize>) -> f64;
+
+    /// The largest residual of an inlier of `model`.
+    fn threshold(&self, model: &E::Model) -> f64;
+
+    /// The score of `model`, or `None` once it is certain not to exceed `bound`.
+    fn score(&self, estimator: &E, model: &E::Model, bound: f64) -> Option<f64> {
+        let mut unseen = estimator.len();
+        let mut gain = 0.0;
+        for block in blocks(estimator.len()) {
+            unseen -= block.len();
+            gain += self.block_gain(estimator, model, block);
+            if gain + unseen as f64 <= bound {
+                return None;
+            }
+        }
+        (gain > bound).then_some(gain)
+    }
+
+    /// Replaces `out` by the inliers of `model`, in ascending order.
+    fn select(&self, estimator: &E, model: &E::Model, out: &mut Vec<usize>) {
+        out.clear();
+        let threshold = self.threshold(model);
+        for block in blocks(estimator.len()) {
+            estimator.select_within(model, block, threshold, out);
+        }
+    }
+}
+
+/// Each inlier gains 1: the score of the original RANSAC (Fischler and Bolles 1981).
+#[derive(Clone, Copy, Debug)]
+pub struct InlierCount<T> {
+    threshold: T,
+}
+
+impl<T> InlierCount<T> {
+    /// Inliers are the data with a residual of at most `threshold`.
+    pub fn within(threshold: T) -> Self {
+        Self { threshold }
+    }
+}
+
+impl<E: Estimator, T: Threshold<E::Model>> Scorer<E> for InlierCount<T> {
+    fn block_gain(&self, estimator: &E, model: &E::Model, block: Range<usize>) -> f64 {
+        estimator.count_within(model, block, self.threshold.for_model(model)) as f64
+    }
+
+    fn threshold(&self, model: &E::Model) -> f64 {
+        self.threshold.for_model(model)
+    }
+}
+
+/// An inlier gains 1 − (residual/threshold)²: the truncated quadratic of
+/// MSAC (Torr and Zisserman 2000, section 5, doi 10.1006/cviu.1999.0832), turned so that more is better.
+#[derive(Clone, Copy, Debug)]
+pub struct Msac<T> {
+    threshold: T,
+}
+
+impl<T> Msac<T> {
+    /// Data gain up to a residual of `threshold`.
+    pub fn within(threshold: T) -> Self {
+        Self { threshold }
+    }
+}
+
+impl<E: Estimator, T: Threshold<E::Model>> Scorer<E> for Msac<T> {
+    fn block_gain(&self, estimator: &E, model: &E::Model, block: Range<usize>) -> f64 {
+        estimator.truncated_gain(model, block, self.threshold.for_model(model))
+    }
+
+    fn threshold(&self, model: &E::Model) -> f64 {
+        self.threshold.for_model(model)
+    }
+}

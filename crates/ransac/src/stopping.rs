@@ -1,0 +1,94 @@
+/// How far a search has come: what a [`Stopping`] rule decides by.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Progress {
+    /// Samples drawn, whatever became of them.
+    pub draws: u64,
+    /// Models that passed all constraints and were scored.
+    pub hypotheses: u64,
+    /// Inliers of the best model so far; 0 while there is none.
+    pub best_inliers: usize,
+    /// How many data there are.
+    pub data: usize,
+    /// How many data a minimal sample has.
+    pub sample_size: usize,
+}
+
+/// Why a search ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum StopReason {
+    /// The wanted number of hypotheses was scored.
+    HypothesesReached,
+    /// The largest allowed number of samples was drawn.
+    DrawsExhausted,
+    /// A better model is as unlikely as was asked for.
+    Confident,
+}
+
+/// Decides when a search ends; asked after each iteration, in order.
+pub trait Stopping: Sync {
+    /// The reason to stop now, if there is one.
+    ///
+    /// It must give one sooner or later for growing `draws`, or the search never ends.
+    fn reason(&self, progress: &Progress) -> Option<StopReason>;
+}
+
+/// Ends after a fixed number of scored hypotheses.
+///
+/// Samples that are degenerate or that a constraint refuses do not count, but
+/// at most `max_draws` samples are drawn in all.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct FixedCount {
+    hypotheses: u64,
+    max_draws: u64,
+}
+
+impl FixedCount {
+    /// Scores `hypotheses` models, and draws at most a hundred times as many samples.
+    pub fn new(hypotheses: u64) -> Self {
+        Self {
+            hypotheses,
+            max_draws: hypotheses.saturating_mul(100),
+        }
+    }
+
+    /// The same, with another limit of samples to draw.
+    #[must_use]
+    pub fn max_draws(self, max_draws: u64) -> Self {
+        Self { max_draws, ..self }
+    }
+}
+
+impl Stopping for FixedCount {
+    fn reason(&self, progress: &Progress) -> Option<StopReason> {
+        if progress.hypotheses >= self.hypotheses {
+            Some(StopReason::HypothesesReached)
+        } else if progress.draws >= self.max_draws {
+            Some(StopReason::DrawsExhausted)
+        } else {
+            None
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn counts_hypotheses_and_limits_draws() {
+        let rule = FixedCount::new(10).max_draws(50);
+        let at = |hypotheses, draws| Progress {
+            draws,
+            hypotheses,
+            ..Progress::default()
+        };
+        assert_eq!(rule.reason(&at(9, 49)), None);
+        assert_eq!(
+            rule.reason(&at(10, 10)),
+            Some(StopReason::HypothesesReached)
+        );
+        assert_eq!(rule.reason(&at(0, 50)), Some(StopReason::DrawsExhausted));
+    }
+}

@@ -1,1 +1,58 @@
-//! To be written.
+//! Primitives fitted to points in space: minimal solvers, least squares,
+//! geometric refinement, and estimators that put them into a RANSAC search.
+//!
+//! ```
+//! use pomona_fit::{Points, RadiusWindow, SphereEstimator, SphereRefit};
+//! use pomona_ransac::{FixedCount, InlierCount, Ransac, RefitOnce};
+//! use rand_chacha::{ChaCha8Rng, rand_core::SeedableRng};
+//!
+//! // The camera's side of a sphere of 40 mm at 0.8 m, and every fifth point off it.
+//! let (mut x, mut y, mut z) = (vec![], vec![], vec![]);
+//! for i in 0..500 {
+//!     let (s, a) = ((f64::from(i) / 500.0).sqrt(), f64::from(i) * 2.4);
+//!     let r = if i % 5 == 0 { 0.055 } else { 0.04 };
+//!     x.push((r * s * a.cos()) as f32);
+//!     y.push((r * s * a.sin()) as f32);
+//!     z.push((0.8 - r * (1.0 - s * s).sqrt()) as f32);
+//! }
+//! let estimator = SphereEstimator::new(Points::new(&x, &y, &z)?, SphereRefit::Algebraic);
+//!
+//! let report = Ransac::new(InlierCount::within(0.001))
+//!     .constraint(RadiusWindow::new(0.02, 0.05)?)
+//!     .local_optimization(RefitOnce)
+//!     .stopping(FixedCount::new(200))
+//!     .run(&estimator, &mut ChaCha8Rng::seed_from_u64(1))?;
+//! assert!((report.model.radius - 0.04).abs() < 1e-6);
+//! assert_eq!(report.inliers.len(), 400);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # Concepts
+//!
+//! - [`Points`] is a view of three coordinate arrays of `f32` or `f64`; nothing is copied.
+//!   The arithmetic of scoring is done in that type, all fitting in `f64`.
+//! - A solver is a plain function from points to a primitive. A sample or a set that does
+//!   not determine the primitive (coincident, collinear, coplanar, not finite) gives `None`.
+//! - An estimator ([`SphereEstimator`], [`LineEstimator`], [`PlaneEstimator`]) is the view
+//!   that `pomona-ransac` works with; constraints ([`RadiusWindow`],
+//!   [`DistanceWindow`]) go with it.
+//!
+//! # Not here
+//!
+//! Cameras, noise models, what the points belong to.
+
+mod constraint;
+mod coordinate;
+mod line;
+mod plane;
+mod points;
+mod sphere;
+
+pub use constraint::{DistanceWindow, RadiusWindow, WindowError};
+pub use coordinate::Coordinate;
+pub use line::{LineEstimator, line_least_squares};
+pub use plane::{PlaneEstimator, plane_least_squares};
+pub use points::{Points, PointsError};
+pub use sphere::{
+    SphereEstimator, SphereRefit, sphere_geometric, sphere_least_squares, sphere_through,
+};

@@ -1,4 +1,15 @@
+mod json;
+mod lens;
+mod ros;
+
+pub use lens::Lens;
+
+use crate::error::Fault;
+use crate::{CloudError, file};
+use nalgebra::Point3;
 use serde::{Deserialize, Serialize};
+use std::path::Path;
+use thiserror::Error;
 
 /// A pinhole camera with optional lens distortion, in the REP-103 optical frame
 /// (x right, y down, z forward).
@@ -6,6 +17,7 @@ use serde::{Deserialize, Serialize};
 /// Pixel (0, 0) is the centre of the top-left pixel, so a point
 /// on the ray of pixel (u, v) is z·((u − cx)/fx, (v − cy)/fy, 1).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Camera {
     /// Image width in pixels.
     pub width: usize,
@@ -30,9 +42,213 @@ pub struct Camera {
 
 /// Lens distortion, by model name and coefficients in OpenCV's order.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Distortion {
     /// Name of the model, for example `plumb_bob`.
     pub model: String,
     /// Its coefficients.
     pub coefficients: Vec<f64>,
 }
+
+/// Why a camera cannot be computed with.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum CameraError {
+    /// A number that must be finite and positive is not.
+    #[error(
+        "camera field `{field}` is {value} but must be finite and positive; calibrate the camera, or copy its intrinsics again"
+    )]
+    NotPositive {
+        /// Name of the field.
+        field: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// A number that must be finite is not.
+    #[error(
+        "camera field `{field}` is {value} but must be finite; calibrate the camera, or copy its intrinsics again"
+    )]
+    NotFinite {
+        /// Name of the field.
+        field: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// A distortion model that is not known here.
+    #[error(
+        "distortion model `{model}` is not known; use plumb_bob (or brown_conrady) or rational_polynomial, or undistort the images and leave `distortion` out"
+    )]
+    UnknownModel {
+        /// The model's name as it was given.
+        model: String,
+    },
+    /// A distortion model with the wrong number of coefficients.
+    #[error(
+        "distortion model `{model}` takes {expected} coefficients (k1 k2 p1 p2 k3 …, OpenCV's order) but {found} are given; copy all of them"
+    )]
+    CoefficientCount {
+        /// The model's name.
+        model: String,
+        /// How many it takes.
+        expected: &'static str,
+        /// How many there are.
+        found: usize,
+    },
+    /// A distortion that cannot be inverted over the whole image.
+    #[error(
+        "the distortion of model `{model}` has no inverse at pixel ({u}, {v}); check the order and the values of the coefficients"
+    )]
+    NotInvertible {
+        /// The model's name.
+        model: String,
+        /// Column of the pixel.
+        u: f64,
+        /// Row of the pixel.
+        v: f64,
+    },
+}
+
+impl Camera {
+    /// Checks that the camera can be computed with: sizes, focal lengths and depth
+    /// scale positive, all numbers finite, a known distortion that can be inverted
+    /// at the corners and the edges' middles.
+    ///
+    /// # Errors
+    ///
+    /// The first [`CameraError`] found, in the order of the fields.
+    pub fn validate(&self) -> Result<(), CameraError> {
+        for (field, value) in [
+            ("width", self.width as f64),
+            ("height", self.height as f64),
+            ("fx", self.fx),
+            ("fy", self.fy),
+            ("depth_scale", self.depth_scale),
+        ] {
+            if !(value.is_finite() && value > 0.0) {
+                return Err(CameraError::NotPositive { field, value });
+            }
+        }
+        for (field, value) in [("cx", self.cx), ("cy", self.cy)] {
+            if !value.is_finite() {
+                return Err(CameraError::NotFinite { field, value });
+            }
+        }
+        let lens = self.lens()?;
+        let (right, bottom) = ((self.width - 1) as f64, (self.height - 1) as f64);
+        for u in [0.0, 0.5 * right, right] {
+            for v in [0.0, 0.5 * bottom, bottom] {
+                if self.ray_through(&lens, u, v).is_none() {
+                    let model = self
+                        .distortion
+                        .as_ref()
+                        .map_or_else(String::new, |d| d.model.clone());
+                    return Err(CameraError::NotInvertible { model, u, v });
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The lens that `distortion` describes.
+    ///
+    /// # Errors
+    ///
+    /// [`CameraError::UnknownModel`], [`CameraError::CoefficientCount`], [`CameraError::NotFinite`].
+    pub fn lens(&self) -> Result<Lens, CameraError> {
+        self.distortion
+            .as_ref()
+            .map_or(Ok(Lens::Pinhole), Lens::try_from)
+    }
+
+    /// The point at depth `z` (metres along the optical axis) seen at pixel (u, v).
+    ///
+    /// Its coordinates are NaN where the distortion has no inverse at the pixel,
+    /// which [`Camera::validate`] excludes.
+    pub fn deproject(&self, u: f64, v: f64, z: f64) -> Point3<f64> {
+        match self.ray(u, v) {
+            Some((x, y)) => Point3::new(x * z, y * z, z),
+            None => Point3::new(f64::NAN, f64::NAN, f64::NAN),
+        }
+    }
+
+    /// x/z and y/z of the points seen at pixel (u, v); `None` where the distortion
+    /// is not known or has no inverse there.
+    pub fn ray(&self, u: f64, v: f64) -> Option<(f64, f64)> {
+        self.ray_through(&self.lens().ok()?, u, v)
+    }
+
+    /// As [`Camera::ray`], for a caller who has looked up the lens for many pixels.
+    pub(crate) fn ray_through(&self, lens: &Lens, u: f64, v: f64) -> Option<(f64, f64)> {
+        lens.undistort((u - self.cx) / self.fx, (v - self.cy) / self.fy)
+    }
+
+    /// The pixel (u, v) at which a point is seen, also outside the image.
+    ///
+    /// `None` for a point at or behind the camera, not finite, or so far off the axis that
+    /// the distortion model folds over.
+    pub fn project(&self, point: &Point3<f64>) -> Option<(f64, f64)> {
+        if !(point.z > 0.0 && point.iter().all(|c| c.is_finite())) {
+            return None;
+        }
+        let (x, y) = self
+            .lens()
+            .ok()?
+            .distort(point.x / point.z, point.y / point.z)?;
+        let pixel = (x * self.fx + self.cx, y * self.fy + self.cy);
+        (pixel.0.is_finite() && pixel.1.is_finite()).then_some(pixel)
+    }
+
+    /// Reads a camera: the project's JSON, Open3D's intrinsic JSON, or a ROS
+    /// `CameraInfo` in YAML, recognised by extension and content.
+    ///
+    /// ROS and Open3D files do not say how depth is stored; then a depth unit is
+    /// one millimetre, the default of both.
+    ///
+    /// # Errors
+    ///
+    /// [`CloudError::Read`], [`CloudError::Malformed`], [`CloudError::Camera`].
+    pub fn read(path: impl AsRef<Path>) -> Result<Self, CloudError> {
+        let path = path.as_ref();
+        let bytes = file::read_bytes(path)?;
+        let camera = Self::parse(path, &bytes).map_err(|fault| fault.at(path))?;
+        camera.validate().map_err(|source| CloudError::Camera {
+            path: path.to_owned(),
+            source,
+        })?;
+        Ok(camera)
+    }
+
+    /// Writes the project's JSON.
+    ///
+    /// # Errors
+    ///
+    /// [`CloudError::Camera`] for a camera that could not be read back, [`CloudError::Write`].
+    pub fn write(&self, path: impl AsRef<Path>) -> Result<(), CloudError> {
+        let path = path.as_ref();
+        self.validate().map_err(|source| CloudError::Camera {
+            path: path.to_owned(),
+            source,
+        })?;
+        file::write_atomically(path, json::format(self).as_bytes())
+    }
+
+    fn parse(path: &Path, bytes: &[u8]) -> Result<Self, Fault> {
+        let text = std::str::from_utf8(bytes).map_err(|e| {
+            let place = format!("byte {}", e.valid_up_to());
+            Fault::new(
+                place,
+                "not UTF-8 text",
+                "give the camera as JSON or YAML text",
+            )
+        })?;
+        let extension = path.extension().unwrap_or_default().to_ascii_lowercase();
+        if extension == "yaml" || extension == "yml" {
+            ros::parse(text)
+        } else {
+            json::parse(text)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

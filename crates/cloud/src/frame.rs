@@ -1,4 +1,15 @@
-use crate::{Camera, ColorImage, DepthImage, PixelBox};
+mod tum;
+
+pub use tum::{TumEntry, read_tum};
+
+use crate::boxes::validate_all;
+use crate::file::temporary_beside;
+use crate::{
+    BoxFormat, Camera, CloudError, ColorImage, DepthImage, DepthPoints, PixelBox, PixelWindow,
+    PointCloud, read_boxes, write_boxes,
+};
+use std::fs;
+use std::path::{Path, PathBuf};
 
 /// One RGB-D frame: colour, depth registered to it, camera, and boxes where they are known.
 #[derive(Clone, Debug, PartialEq)]
@@ -14,3 +25,236 @@ pub struct Frame {
     /// Boxes of apples; `None` where nobody looked for apples.
     pub boxes: Option<Vec<PixelBox>>,
 }
+
+const COLOR: &[&str] = &["color.png", "color.jpg", "color.jpeg"];
+const CAMERA: &[&str] = &[
+    "camera.json",
+    "camera.yaml",
+    "camera.yml",
+    "camera_info.yaml",
+    "intrinsic.json",
+];
+const BOXES: &[&str] = &["boxes.xml", "boxes.json", "boxes.txt"];
+
+/// The names under which [`Frame::write`] writes.
+const WRITTEN: [&str; 4] = ["color.png", "depth.png", "camera.json", "boxes.xml"];
+
+impl Frame {
+    /// Reads a frame's folder: `color.png` or `.jpg`, `depth.png`, `camera.json` (or a ROS
+    /// `camera.yaml`, `camera_info.yaml`, or Open3D's `intrinsic.json`), and
+    /// `boxes.xml`, `.json` or `.txt` where there is one. Of several names the first is read.
+    ///
+    /// # Errors
+    ///
+    /// [`CloudError::MissingFile`], [`CloudError::SizeMismatch`], [`CloudError::Box`], and
+    /// the errors of reading each file.
+    pub fn read(dir: impl AsRef<Path>) -> Result<Self, CloudError> {
+        let dir = dir.as_ref();
+        if let Err(source) = fs::read_dir(dir) {
+            return Err(CloudError::Read {
+                path: dir.to_owned(),
+                source,
+            });
+        }
+        let color = ColorImage::read(required(dir, COLOR, "color.png or color.jpg")?)?;
+        let depth = DepthImage::read(required(dir, &["depth.png"], "depth.png")?)?;
+        let camera = Camera::read(required(
+            dir,
+            CAMERA,
+            "camera.json (or camera.yaml, intrinsic.json)",
+        )?)?;
+        let mut frame = Self {
+            id: folder_name(dir),
+            camera,
+            color,
+            depth,
+            boxes: None,
+        };
+        frame.validate_as(dir)?;
+        if let Some(path) = present(dir, BOXES) {
+            frame.boxes = Some(read_boxes(path, frame.color.width, frame.color.height)?);
+        }
+        Ok(frame)
+    }
+
+    /// Writes a frame's folder, boxes as VOC. A new folder appears whole or not at all.
+    ///
+    /// # Errors
+    ///
+    /// As [`Frame::validate`]; [`CloudError::Write`], also where the folder holds
+    /// a file that would then be read as a part of this frame.
+    pub fn write(&self, dir: impl AsRef<Path>) -> Result<(), CloudError> {
+        let dir = dir.as_ref();
+        self.validate_as(dir)?;
+        if dir.exists() {
+            let kept = if self.boxes.is_some() {
+                &WRITTEN[..]
+            } else {
+                &WRITTEN[..3]
+            };
+            let names = COLOR.iter().chain(CAMERA).chain(BOXES);
+            if let Some(name) = names
+                .filter(|n| !kept.contains(n))
+                .find(|n| dir.join(n).exists())
+            {
+                let message = "it belongs to another frame; choose a new folder or remove it";
+                let source = std::io::Error::new(std::io::ErrorKind::AlreadyExists, message);
+                return Err(CloudError::Write {
+                    path: dir.join(name),
+                    source,
+                });
+            }
+            return self.write_files(dir);
+        }
+        let temporary = temporary_beside(dir);
+        let renamed = fs::create_dir(&temporary)
+            .map_err(|source| CloudError::Write {
+                path: dir.to_owned(),
+                source,
+            })
+            .and_then(|()| self.write_files(&temporary))
+            .and_then(|()| {
+                fs::rename(&temporary, dir).map_err(|source| CloudError::Write {
+                    path: dir.to_owned(),
+                    source,
+                })
+            });
+        if renamed.is_err() {
+            // The first error is the one to report.
+            let _ = fs::remove_dir_all(&temporary);
+        }
+        renamed
+    }
+
+    fn write_files(&self, dir: &Path) -> Result<(), CloudError> {
+        let [color, depth, camera, boxes] = WRITTEN.map(|name| dir.join(name));
+        self.color.write(color)?;
+        self.depth.write(depth)?;
+        self.camera.write(camera)?;
+        if let Some(list) = &self.boxes {
+            write_boxes(
+                boxes,
+                list,
+                self.color.width,
+                self.color.height,
+                BoxFormat::Voc,
+            )?;
+        }
+        Ok(())
+    }
+
+    /// Checks what reading a frame checks: one size for camera, colour and depth, all pixels
+    /// there, a camera that can be computed with, boxes that hold pixels.
+    ///
+    /// # Errors
+    ///
+    /// [`CloudError::SizeMismatch`], [`CloudError::Malformed`], [`CloudError::Camera`],
+    /// [`CloudError::Box`]; the path in them is the frame's id.
+    pub fn validate(&self) -> Result<(), CloudError> {
+        self.validate_as(Path::new(&self.id))
+    }
+
+    fn validate_as(&self, path: &Path) -> Result<(), CloudError> {
+        let (color, depth) = (
+            (self.color.width, self.color.height),
+            (self.depth.width, self.depth.height),
+        );
+        let camera = (self.camera.width, self.camera.height);
+        let mismatch =
+            |first: &str, first_size, second: &str, second_size| CloudError::SizeMismatch {
+                path: path.to_owned(),
+                first: first.to_owned(),
+                first_size,
+                second: second.to_owned(),
+                second_size,
+            };
+        if color != depth {
+            return Err(mismatch(
+                "the colour image",
+                color,
+                "the depth image",
+                depth,
+            ));
+        }
+        if camera != color {
+            return Err(mismatch("the camera", camera, "the colour image", color));
+        }
+        for (place, count) in [
+            ("colour image", self.color.pixels.len()),
+            ("depth image", self.depth.readings.len()),
+        ] {
+            if color.0.checked_mul(color.1) != Some(count) {
+                return Err(CloudError::Malformed {
+                    path: path.to_owned(),
+                    place: place.to_owned(),
+                    problem: format!("{count} pixels for a size of {}x{}", color.0, color.1),
+                    remedy: "give width * height pixels".to_owned(),
+                });
+            }
+        }
+        self.camera
+            .validate()
+            .map_err(|source| CloudError::Camera {
+                path: path.to_owned(),
+                source,
+            })?;
+        validate_all(
+            path,
+            self.boxes.as_deref().unwrap_or_default(),
+            color.0,
+            color.1,
+        )
+    }
+
+    /// The points of a window of the depth image.
+    ///
+    /// A caller with many windows keeps one [`DepthPoints`] and fills it anew instead.
+    ///
+    /// # Errors
+    ///
+    /// As [`DepthPoints::fill`].
+    pub fn window(&self, window: PixelWindow) -> Result<DepthPoints, CloudError> {
+        let mut points = DepthPoints::new();
+        points.fill(&self.depth, &self.camera, window)?;
+        Ok(points)
+    }
+
+    /// The coloured points inside a box, as an unorganised cloud of pixels with a reading.
+    ///
+    /// # Errors
+    ///
+    /// [`CloudError::Box`] where the box holds no pixel; otherwise as [`DepthPoints::fill`].
+    pub fn crop(&self, pixel_box: &PixelBox) -> Result<PointCloud, CloudError> {
+        let window = pixel_box
+            .window(self.depth.width, self.depth.height)
+            .map_err(|source| CloudError::Box {
+                path: PathBuf::from(&self.id),
+                source,
+            })?;
+        Ok(PointCloud::from_points(&self.window(window)?, &self.color))
+    }
+}
+
+fn present(dir: &Path, names: &[&str]) -> Option<PathBuf> {
+    names
+        .iter()
+        .map(|name| dir.join(name))
+        .find(|path| path.exists())
+}
+
+fn required(dir: &Path, names: &[&str], expected: &'static str) -> Result<PathBuf, CloudError> {
+    present(dir, names).ok_or_else(|| CloudError::MissingFile {
+        path: dir.to_owned(),
+        expected,
+    })
+}
+
+/// The folder's own name, also where the path is `.` or ends in `..`.
+fn folder_name(dir: &Path) -> String {
+    let name = dir.file_name().map(ToOwned::to_owned);
+    let name = name.or_else(|| dir.canonicalize().ok()?.file_name().map(ToOwned::to_owned));
+    name.unwrap_or_default().to_string_lossy().into_owned()
+}
+
+#[cfg(test)]
+mod tests;

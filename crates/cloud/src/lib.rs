@@ -1,15 +1,115 @@
 //! RGB-D frames and point clouds: what a depth camera delivers, and the files it comes in.
+//!
+//! ```
+//! use pomona_cloud::{
+//!     Camera, CloudFormat, ColorImage, DepthImage, DepthPoints, Frame, PixelBox, PointCloud,
+//! };
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! // A wall 0.9 m away, seen by a small camera, and a box drawn on it.
+//! let frame = Frame {
+//!     id: "row-7".to_owned(),
+//!     camera: Camera {
+//!         width: 64,
+//!         height: 48,
+//!         fx: 60.0,
+//!         fy: 60.0,
+//!         cx: 31.5,
+//!         cy: 23.5,
+//!         depth_scale: 0.001,
+//!         frame_id: "camera_color_optical_frame".to_owned(),
+//!         distortion: None,
+//!     },
+//!     color: ColorImage::filled(64, 48, [180, 30, 40]),
+//!     depth: DepthImage { width: 64, height: 48, readings: vec![900; 64 * 48] },
+//!     boxes: Some(vec![PixelBox {
+//!         name: "2118".to_owned(),
+//!         x_min: 20.0,
+//!         y_min: 10.0,
+//!         x_max: 30.0,
+//!         y_max: 20.0,
+//!         score: 1.0,
+//!     }]),
+//! };
+//!
+//! // A folder of plain files, there and back.
+//! # let parent = tempfile::tempdir()?;
+//! # let dir = parent.path().join("row-7");
+//! frame.write(&dir)?;
+//! let frame = Frame::read(&dir)?;
+//!
+//! // The points of each box, in one set of buffers.
+//! let mut points = DepthPoints::new();
+//! for pixel_box in frame.boxes.iter().flatten() {
+//!     let window = pixel_box.window(frame.depth.width, frame.depth.height)?;
+//!     points.fill(&frame.depth, &frame.camera, window)?;
+//!     assert_eq!(points.len(), 100);
+//!     assert_eq!(points.z[0], 0.9);
+//! }
+//!
+//! // The whole frame as an organised, coloured cloud.
+//! let cloud = PointCloud::from_frame(&frame)?;
+//! cloud.write(dir.join("cloud.ply"), CloudFormat::PlyBinaryLittleEndian)?;
+//! assert_eq!(PointCloud::read(dir.join("cloud.ply"))?, cloud);
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! # Concepts
+//!
+//! A [`Frame`] is a colour image, a depth image registered to it, their one [`Camera`], and
+//! perhaps the boxes of the apples in them. Its folder holds `color.png` (or `.jpg`),
+//! `depth.png` (16-bit grey), `camera.json` (or a ROS `CameraInfo` in YAML, or Open3D's
+//! `intrinsic.json`), and `boxes.xml`, `.json` or `.txt` (VOC, COCO, YOLO). [`read_tum`] reads the
+//! other common folder, that of the TUM RGB-D benchmark.
+//!
+//! Lengths are in metres, in the camera's REP-103 optical frame: x right, y down, z forward.
+//! Depth is z, not range; a depth of 0 is 'no reading'. Pixel (0, 0) is the centre of
+//! the top-left pixel.
+//!
+//! Points are kept as separate f32 arrays. [`DepthPoints`] are those of a [`PixelWindow`], each with its
+//! pixel, made to be filled again and again; a [`PointCloud`] is what files hold, in one of
+//! the [`CloudFormat`]s. An organised cloud has a point for every pixel, NaN where there is
+//! no reading.
+//!
+//! Files are not trusted: a size that a header claims is compared with the size of the file
+//! before memory is taken, whatever is wrong is an error that names the file, the
+//! place and the remedy ([`CloudError`]), and a file or a new frame folder is written whole or not at all.
+//!
+//! # Not here
+//!
+//! Finding apples, in pictures or in clouds; filtering, normals, neighbours and
+//! registration of clouds; rectifying images; video and recordings.
+//!
+//! # References
+//!
+//! - PCD: <https://pointclouds.org/documentation/tutorials/pcd_file_format.html>
+//! - PLY: Greg Turk, The PLY Polygon File Format, 1994.
+//! - Camera frame: REP-103; depth images: REP-118.
+//! - Distortion: D. C. Brown, Close-range camera calibration, 1971, in the form of OpenCV's `calib3d`.
+//! - TUM RGB-D: Sturm et al., A benchmark for the evaluation of RGB-D SLAM systems, 2012,
+//!   doi 10.1109/IROS.2012.6385773.
 
 mod boxes;
 mod camera;
 mod cloud;
 mod color;
 mod depth;
+mod error;
+mod file;
+mod formats;
 mod frame;
+mod image;
+mod points;
+mod window;
 
-pub use boxes::PixelBox;
-pub use camera::{Camera, Distortion};
+pub use boxes::{BoxError, BoxFormat, PixelBox, read_boxes, write_boxes};
+pub use camera::{Camera, CameraError, Distortion, Lens};
 pub use cloud::PointCloud;
 pub use color::ColorImage;
 pub use depth::DepthImage;
-pub use frame::Frame;
+pub use error::CloudError;
+pub use formats::CloudFormat;
+pub use frame::{Frame, TumEntry, read_tum};
+pub use points::DepthPoints;
+pub use window::PixelWindow;

@@ -46,6 +46,7 @@ mod coordinate;
 mod line;
 mod plane;
 mod points;
+mod simd;
 mod sphere;
 
 pub use constraint::{DistanceWindow, RadiusWindow, WindowError};

@@ -18,12 +18,20 @@ impl Aabb {
 
     /// The smallest box that holds all finite points of `points`; `None` if there is none.
     pub fn around(points: impl IntoIterator<Item = Point3<f64>>) -> Option<Self> {
-        let mut finite = points.into_iter().filter(|p| p.iter().all(|c| c.is_finite()));
+        let mut finite = points
+            .into_iter()
+            .filter(|p| p.iter().all(|c| c.is_finite()));
         let first = finite.next()?;
-        Some(finite.fold(Self { min: first, max: first }, |b, p| Self {
-            min: b.min.inf(&p),
-            max: b.max.sup(&p),
-        }))
+        Some(finite.fold(
+            Self {
+                min: first,
+                max: first,
+            },
+            |b, p| Self {
+                min: b.min.inf(&p),
+                max: b.max.sup(&p),
+            },
+        ))
     }
 
     /// Whether the box holds `point`; never for a point that is not finite.
@@ -45,7 +53,8 @@ mod tests {
     fn around_skips_what_is_not_finite() {
         let nan = Point3::new(f64::NAN, 0.0, 0.0);
         assert!(Aabb::around([nan]).is_none());
-        let b = Aabb::around([nan, Point3::new(1.0, 2.0, 3.0), Point3::new(0.0, 5.0, 3.0)]).unwrap();
+        let b =
+            Aabb::around([nan, Point3::new(1.0, 2.0, 3.0), Point3::new(0.0, 5.0, 3.0)]).unwrap();
         assert_eq!(b.min, Point3::new(0.0, 2.0, 3.0));
         assert_eq!(b.max, Point3::new(1.0, 5.0, 3.0));
         assert!(b.contains(&b.center()) && b.contains(&b.max));

@@ -17,7 +17,10 @@ impl Plane {
             return None;
         }
         let normal = Unit::new_normalize(normal / normal.amax());
-        Some(Self { normal, offset: normal.dot(&point.coords) })
+        Some(Self {
+            normal,
+            offset: normal.dot(&point.coords),
+        })
     }
 
     /// The plane through three points, or `None` where they lie on one line

@@ -1,1 +1,61 @@
-//! To be written.
+//! How to pick each apple of an RGB-D frame: the pipeline that other programs add.
+//!
+//! ```
+//! use pomona::{Config, Picker};
+//! use pomona_scenes::Suite;
+//!
+//! // A frame of one apple below a branch; `Frame::read` takes one from a folder.
+//! let case = Suite::Lab15.cases().find(|case| case.name.contains("x0")).unwrap();
+//! let scene = case.scene();
+//!
+//! let picker = Picker::new(Config::default())?;
+//! let outcome = picker.pick(&scene.frame, 0, None)?;
+//!
+//! let pick = &outcome.record.picks[0];
+//! assert_eq!(pick.status, pomona::Status::Picked);
+//! let [_, y, _] = pick.direction.unwrap();
+//! assert!(y < -0.9, "the branch is above the apple, and y points down");
+//! # Ok::<(), pomona::PickError>(())
+//! ```
+//!
+//! # Concepts
+//!
+//! - A [`Picker`] holds a checked [`Config`] and turns a frame into an [`Outcome`]: the
+//!   [`Record`] that `picks.json` holds, and beside it the [`Evidence`] of each apple (the
+//!   pixels of its surface and of its branch) for pictures.
+//! - Each apple is worked on by itself, so the apples of a frame run in parallel;
+//!   the random numbers of one depend on (run seed, frame, apple) and nothing else.
+//! - An apple without an answer is no error: it has a [`Status`] that says why, and what is
+//!   known stays in its record.
+//! - The method is `paper`: Gao et al. 2022, with the settings of [`PaperConfig`].
+//!
+//! # Frames and units
+//!
+//! Metres and radians; the camera's frame is REP-103 optical (x right, y down, z forward).
+//! With a transform, position and direction are given in the robot's frame as well.
+//!
+//! # Not here
+//!
+//! Finding apples in the colour image (the frame's boxes say where they are), drawing,
+//! argument parsing.
+//!
+//! # References
+//!
+//! Gao, Zhou, Cao and Jiang 2022, "An Algorithm for Calculating Apple Picking Direction
+//! Based on 3D Vision", Agriculture 12(8), 1170, doi 10.3390/agriculture12081170.
+
+mod config;
+mod error;
+mod paper;
+mod picker;
+mod record;
+mod seed;
+mod surroundings;
+
+pub use config::{Config, ConfigError, Method, PaperConfig};
+pub use error::PickError;
+pub use picker::{Evidence, Outcome, Picker, RobotFromCamera};
+pub use record::{
+    AppleRecord, BoxRecord, BranchRecord, FrameRecord, Pick, Record, RobotRecord, SCHEMA, Status,
+    TimingRecord,
+};

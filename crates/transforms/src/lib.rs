@@ -1,1 +1,93 @@
-//! To be written.
+//! Where things are for the robot: frames as types, rigid transforms between them, and the
+//! orientation of a tool that approaches along a direction.
+//!
+//! ```
+//! use nalgebra::{Point3, Vector3};
+//! use pomona_transforms::{
+//!     CameraFrame, Direction, NamedTransform, Position, RobotFrame, ToolOrientation, Transform,
+//! };
+//!
+//! // The camera looks along the robot's x axis, half a metre above its base.
+//! let robot_from_camera = Transform::<RobotFrame, CameraFrame>::from_quaternion(
+//!     [0.0, 0.0, 0.5],
+//!     [0.5, -0.5, 0.5, -0.5],
+//! )?;
+//!
+//! // An apple 0.8 m in front of the camera, to be picked upwards (y points down there).
+//! let center = Position::new(Point3::new(0.0, 0.0, 0.8));
+//! let upwards = Direction::new(Vector3::new(0.0, -1.0, 0.0)).unwrap();
+//!
+//! let center = robot_from_camera.position(&center);
+//! let upwards = robot_from_camera.direction(&upwards);
+//! assert!((center.point() - Point3::new(0.8, 0.0, 0.5)).norm() < 1e-12);
+//! assert!((upwards.vector() - Vector3::z()).norm() < 1e-12);
+//!
+//! // Straight up, the turn about z is anyone's choice, and the answer says so.
+//! let tool = ToolOrientation::along(&upwards);
+//! assert!(tool.singular && tool.euler.rz == 0.0);
+//!
+//! // The transform as a file, with the names that the robot's programs use.
+//! # let folder = tempfile::tempdir()?;
+//! # let path = folder.path().join("robot_from_camera.json");
+//! let named = NamedTransform::new(robot_from_camera, "base_link", "camera_color_optical_frame");
+//! named.write(&path)?;
+//! assert_eq!(NamedTransform::read(&path)?, named);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # Concepts
+//!
+//! - A frame is a type that implements [`FrameTag`]: [`CameraFrame`], [`RobotFrame`], or a
+//!   user's own. [`Position`] and [`Direction`] carry it, so that a position of the camera's
+//!   frame cannot be taken for one of the robot's.
+//! - A [`Transform<To, From>`](Transform) is named destination first: `robot_from_camera` takes
+//!   what is known in the camera's frame into the robot's. A position takes its rotation and its
+//!   translation, a direction the rotation only. Transforms compose where the inner frames
+//!   agree; anything else does not compile.
+//! - A [`NamedTransform`] adds what the types cannot know, the frame ids of a camera and a robot
+//!   at run time, and is what `robot_from_camera.json` holds.
+//! - A [`ToolOrientation`] turns a tool that points along +x into a direction, as a quaternion
+//!   and as [`EulerZyx`] angles; along ±z, where one angle has no value of its own, it says so.
+//!
+//! # Units and signs
+//!
+//! Metres and radians. Right-handed frames; the camera's is REP-103 optical (x right, y down,
+//! z forward). Quaternions are written x y z w, those that leave this crate as numbers
+//! with w ≥ 0.
+//!
+//! # Not here
+//!
+//! Finding the transform (calibration), the pixels of a camera (`pomona-cloud`), shapes and
+//! their distances (`pomona-geometry`), the path of a tool and what stands in its way.
+//!
+//! # References
+//!
+//! - Gao, Zhou, Cao, Jiang 2022, "An Algorithm for Calculating Apple Picking Direction Based on
+//!   3D Vision", Agriculture 12(8), 1170, Eq. 11, doi 10.3390/agriculture12081170: the tool's
+//!   angles.
+//! - Higham 1986, "Computing the polar decomposition, with applications", SIAM J. Sci. Stat.
+//!   Comput. 7(4), doi 10.1137/0907079: the rotation nearest to a matrix.
+//! - REP 103, "Standard Units of Measure and Coordinate Conventions": the frames' axes.
+
+mod direction;
+mod error;
+mod euler;
+mod file;
+mod frame;
+mod json;
+mod matrix;
+mod named;
+mod position;
+mod quaternion;
+mod tool;
+mod transform;
+
+pub use direction::Direction;
+pub use error::{TransformError, TransformFileError};
+pub use euler::EulerZyx;
+pub use frame::{CameraFrame, FrameTag, RobotFrame};
+pub use json::{MAX_TRANSLATION_M, SCHEMA};
+pub use named::NamedTransform;
+pub use position::Position;
+pub use tool::{SINGULAR_ANGLE_RAD, ToolOrientation, paper_as_printed_euler};
+pub use transform::Transform;

@@ -1,1 +1,81 @@
-//! To be written.
+//! Pictures of picks: marks over the colour image, coloured clouds, and
+//! pictures of clouds for those who have no viewer at hand.
+//!
+//! ```
+//! use nalgebra::Point3;
+//! use pomona_cloud::{Camera, ColorImage, PixelBox};
+//! use pomona_view::{AppleMark, Overlay};
+//!
+//! let image = ColorImage { width: 640, height: 480, pixels: vec![[90, 120, 80]; 640 * 480] };
+//! let camera = Camera {
+//!     width: 640, height: 480, fx: 600.0, fy: 600.0, cx: 319.5, cy: 239.5,
+//!     depth_scale: 0.001, frame_id: "camera_color_optical_frame".into(), distortion: None,
+//! };
+//!
+//! let name = String::from("apple");
+//! let bounds = PixelBox { name, x_min: 290.0, y_min: 210.0, x_max: 350.0, y_max: 270.0, score: 1.0 };
+//! let mut mark = AppleMark::new(1, bounds);
+//! // From the apple's centre upwards to the branch.
+//! mark.arrow = Some((Point3::new(0.0, 0.0, 0.8), Point3::new(0.0, -0.06, 0.8)));
+//! mark.caption = Some("r 36 mm".into());
+//!
+//! let picture = Overlay::new(&image, &camera).draw(&[mark])?;
+//! assert_ne!(picture.pixels, image.pixels);
+//! // `picture.write("picks.png")` puts it on the disk.
+//! # Ok::<(), pomona_view::ViewError>(())
+//! ```
+//!
+//! # Concepts
+//!
+//! An [`AppleMark`] is what is known of one apple: a box, and perhaps the
+//! pixels of its surface and branch, its sphere, its picking direction, a
+//! caption, a reason of refusal. [`Overlay`] draws marks over the image;
+//! colours are those of the paper ([`palette`]). A picking direction along
+//! the line of sight has no length in the picture and is drawn as a physicist
+//! would: ⊙ comes towards the camera, ⊗ goes away from it.
+//!
+//! [`colored_cloud`] colours the points of a cloud in the same way and adds
+//! the direction as points, so that any viewer of PLY files shows it;
+//! [`render_cloud`] looks at a cloud from a [`Viewpoint`].
+//!
+//! Pixels are counted from the centre of the top-left one, which is (0, 0),
+//! as [`pomona_cloud::Camera`] does; a box spans whole pixels,
+//! `x_min <= x < x_max`. Lengths are metres, angles radians. The same input
+//! gives the same picture. Input that cannot be shown is left out of the
+//! picture; only an image or view that is none is a [`ViewError`].
+//!
+//! # Not here
+//!
+//! Finding apples, branches and directions: this crate draws what it is told.
+//! Files: [`pomona_cloud::ColorImage`] and [`pomona_cloud::PointCloud`] write themselves.
+//!
+//! # References
+//!
+//! Gao, Zhou, Cao, Jiang, *An Algorithm for Calculating Apple Picking Direction
+//! Based on 3D Vision*, Agriculture 2022, 12(8), 1170,
+//! doi 10.3390/agriculture12081170 (the colours of its figures).
+
+mod arrow;
+mod boxes;
+mod canvas;
+mod colored_cloud;
+mod error;
+mod ink;
+mod label;
+mod layout;
+mod legend;
+mod mark;
+mod overlay;
+pub mod palette;
+mod points;
+mod projection;
+mod render;
+mod text;
+mod viewpoint;
+
+pub use colored_cloud::{CloudMark, colored_cloud};
+pub use error::ViewError;
+pub use mark::AppleMark;
+pub use overlay::Overlay;
+pub use render::{RenderOptions, render_cloud};
+pub use viewpoint::{Projection, Viewpoint};

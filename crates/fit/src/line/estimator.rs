@@ -1,4 +1,4 @@
-use crate::{Coordinate, Points, line_least_squares};
+use crate::{Coordinate, Points, line_least_squares, simd};
 use nalgebra::Vector3;
 use pomona_geometry::Line;
 use pomona_ransac::{Candidates, Estimator};
@@ -48,6 +48,7 @@ impl<T: Coordinate> Tube<T> {
         }
     }
 
+    #[inline(always)]
     fn holds(&self, x: T, y: T, z: T) -> bool {
         let (wx, wy, wz) = (x - self.origin[0], y - self.origin[1], z - self.origin[2]);
         let a = wx * self.u[0] + wy * self.u[1] + wz * self.u[2];
@@ -83,14 +84,7 @@ impl<T: Coordinate> Estimator for LineEstimator<'_, T> {
 
     fn count_within(&self, line: &Line, block: Range<usize>, threshold: f64) -> usize {
         let tube = Tube::<T>::new(line, threshold);
-        let (x, y, z) = self.points.block(block);
-        let count: u32 = x
-            .iter()
-            .zip(y)
-            .zip(z)
-            .map(|((&x, &y), &z)| u32::from(tube.holds(x, y, z)))
-            .sum();
-        count as usize
+        simd::count(self.points.block(block), |x, y, z| tube.holds(x, y, z))
     }
 
     fn select_within(

@@ -1,4 +1,4 @@
-use crate::{Coordinate, Points, sphere_geometric, sphere_least_squares, sphere_through};
+use crate::{Coordinate, Points, simd, sphere_geometric, sphere_least_squares, sphere_through};
 use pomona_geometry::Sphere;
 use pomona_ransac::{Candidates, Estimator};
 use std::ops::Range;
@@ -56,6 +56,7 @@ impl<T: Coordinate> Shell<T> {
         }
     }
 
+    #[inline(always)]
     fn squared_distance(&self, x: T, y: T, z: T) -> T {
         let (dx, dy, dz) = (x - self.center[0], y - self.center[1], z - self.center[2]);
         dx * dx + dy * dy + dz * dz
@@ -65,6 +66,7 @@ impl<T: Coordinate> Shell<T> {
         clippy::needless_bitwise_bool,
         reason = "a branch in the inner loop keeps it from being vectorised"
     )]
+    #[inline(always)]
     fn holds(&self, x: T, y: T, z: T) -> bool {
         let d2 = self.squared_distance(x, y, z);
         (self.low <= d2) & (d2 <= self.high)
@@ -102,14 +104,7 @@ impl<T: Coordinate> Estimator for SphereEstimator<'_, T> {
 
     fn count_within(&self, sphere: &Sphere, block: Range<usize>, threshold: f64) -> usize {
         let shell = Shell::<T>::new(sphere, threshold);
-        let (x, y, z) = self.points.block(block);
-        let count: u32 = x
-            .iter()
-            .zip(y)
-            .zip(z)
-            .map(|((&x, &y), &z)| u32::from(shell.holds(x, y, z)))
-            .sum();
-        count as usize
+        simd::count(self.points.block(block), |x, y, z| shell.holds(x, y, z))
     }
 
     fn select_within(

@@ -1,0 +1,153 @@
+//! Pascal VOC annotation XML, with the tag names of the standard (`annotation`, `bndbox`)
+//! or those of the recordings that have `annotations` and `bbox`.
+
+use super::{PixelBox, check_size};
+use crate::error::Fault;
+use roxmltree::{Document, Node};
+use std::fmt::Write;
+
+const REMEDY: &str =
+    "give VOC XML: annotation / object / name and bndbox with xmin, ymin, xmax, ymax";
+
+pub(super) fn parse(text: &str, width: usize, height: usize) -> Result<Vec<PixelBox>, Fault> {
+    let document = Document::parse(text).map_err(|e| Fault::new("XML", e.to_string(), REMEDY))?;
+    let root = document.root_element();
+    if !matches!(root.tag_name().name(), "annotation" | "annotations") {
+        let problem = format!(
+            "root element `{}`, not `annotation`",
+            root.tag_name().name()
+        );
+        return Err(Fault::new(place(&document, root), problem, REMEDY));
+    }
+    if let Some(size) = child(root, &["size"]) {
+        let stated = (
+            number(&document, size, "width")?,
+            number(&document, size, "height")?,
+        );
+        check_size("<size>", stated, width, height)?;
+    }
+    root.children()
+        .filter(|node| node.has_tag_name("object"))
+        .enumerate()
+        .map(|(index, object)| {
+            let edges = child(object, &["bndbox", "bbox"]).ok_or_else(|| {
+                Fault::new(place(&document, object), "object without a box", REMEDY)
+            })?;
+            let name = child(object, &["name"])
+                .and_then(|node| node.text())
+                .map(str::trim);
+            let score = child(object, &["score", "confidence"]);
+            let score_name = score.map_or("score", |node| node.tag_name().name());
+            Ok(PixelBox {
+                name: name.map_or_else(|| index.to_string(), str::to_owned),
+                x_min: number(&document, edges, "xmin")?,
+                y_min: number(&document, edges, "ymin")?,
+                x_max: number(&document, edges, "xmax")?,
+                y_max: number(&document, edges, "ymax")?,
+                score: if score.is_some() {
+                    number(&document, object, score_name)?
+                } else {
+                    1.0
+                },
+            })
+        })
+        .collect()
+}
+
+fn place(document: &Document<'_>, node: Node<'_, '_>) -> String {
+    format!("line {}", document.text_pos_at(node.range().start).row)
+}
+
+fn child<'a, 'i>(parent: Node<'a, 'i>, names: &[&str]) -> Option<Node<'a, 'i>> {
+    parent
+        .children()
+        .find(|node| node.is_element() && names.contains(&node.tag_name().name()))
+}
+
+fn number(document: &Document<'_>, parent: Node<'_, '_>, name: &str) -> Result<f64, Fault> {
+    let fault = |problem: String| Fault::new(place(document, parent), problem, REMEDY);
+    let node = child(parent, &[name])
+        .ok_or_else(|| fault(format!("`{}` without `{name}`", parent.tag_name().name())))?;
+    let text = node.text().unwrap_or_default().trim();
+    text.parse()
+        .map_err(|_| fault(format!("`{name}` is `{text}`, not a number")))
+}
+
+pub(super) fn format(boxes: &[PixelBox], width: usize, height: usize) -> String {
+    let mut xml = format!(
+        "<annotation>\n  <size>\n    <width>{width}</width>\n    <height>{height}</height>\n    <depth>3</depth>\n  </size>\n"
+    );
+    for b in boxes {
+        // Writing to a string cannot fail.
+        let _ = write!(
+            xml,
+            "  <object>\n    <name>{}</name>\n    <score>{}</score>\n    <bndbox>\n      <xmin>{}</xmin>\n      <ymin>{}</ymin>\n      <xmax>{}</xmax>\n      <ymax>{}</ymax>\n    </bndbox>\n  </object>\n",
+            escape(&b.name),
+            b.score,
+            b.x_min,
+            b.y_min,
+            b.x_max,
+            b.y_max
+        );
+    }
+    xml.push_str("</annotation>\n");
+    xml
+}
+
+/// `text` as XML character data; characters that XML cannot hold are replaced.
+fn escape(text: &str) -> String {
+    let mut escaped = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => escaped.push_str("&amp;"),
+            '<' => escaped.push_str("&lt;"),
+            '>' => escaped.push_str("&gt;"),
+            c if c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}') => {
+                escaped.push(char::REPLACEMENT_CHARACTER);
+            }
+            c => escaped.push(c),
+        }
+    }
+    escaped
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn reads_the_standard_tags_and_those_of_the_recordings() {
+        for (root, tag) in [("annotation", "bndbox"), ("annotations", "bbox")] {
+            let xml = format!(
+                "<{root}>\r\n<size><width>9</width><height>8</height></size><object><name> 2118 </name><{tag}><xmin>1</xmin><ymin>2.5</ymin><xmax>3</xmax><ymax>4</ymax></{tag}></object><object><{tag}><xmin>1</xmin><ymin>2</ymin><xmax>3</xmax><ymax>4</ymax></{tag}></object></{root}>"
+            );
+            let boxes = parse(&xml, 9, 8).unwrap();
+            assert_eq!(boxes.len(), 2);
+            assert_eq!(
+                (boxes[0].name.as_str(), boxes[0].y_min, boxes[0].score),
+                ("2118", 2.5, 1.0)
+            );
+            assert_eq!(boxes[1].name, "1");
+        }
+    }
+
+    #[test]
+    fn faults_name_the_line() {
+        let fault = parse("<annotation>\n<object/>\n</annotation>", 9, 8).unwrap_err();
+        assert_eq!(fault.place, "line 2");
+        let bad = "<annotation><object><bndbox>\n<xmin>one</xmin></bndbox></object></annotation>";
+        assert!(
+            parse(bad, 9, 8)
+                .unwrap_err()
+                .problem
+                .contains("`xmin` is `one`")
+        );
+        assert!(
+            parse("<html/>", 9, 8)
+                .unwrap_err()
+                .problem
+                .contains("`html`")
+        );
+        assert!(parse("<annotation><object>", 9, 8).is_err());
+    }
+}

@@ -1,0 +1,169 @@
+use super::check_claim;
+use crate::error::Fault;
+use crate::{ColorImage, DepthImage};
+use png::{BitDepth, ColorType, Decoder, Encoder, Reader, Transformations};
+use std::io::Cursor;
+
+/// Bits that one byte of a PNG can stand for at most: deflate shrinks by 1032 at best.
+const BITS_PER_BYTE: usize = 8 * 1032;
+
+type PngReader<'a> = Reader<Cursor<&'a [u8]>>;
+
+// By value, as `map_err` hands errors over.
+#[allow(clippy::needless_pass_by_value)]
+fn fault(problem: impl ToString) -> Fault {
+    Fault::new(
+        "PNG data",
+        problem.to_string(),
+        "write the picture again; this file is damaged or no PNG",
+    )
+}
+
+fn open(bytes: &[u8], transformations: Transformations) -> Result<PngReader<'_>, Fault> {
+    let mut decoder = Decoder::new(Cursor::new(bytes));
+    decoder.set_transformations(transformations);
+    let header = decoder.read_header_info().map_err(fault)?;
+    let (width, height) = (header.width as usize, header.height as usize);
+    check_claim(
+        width,
+        height,
+        bytes,
+        BITS_PER_BYTE / header.bits_per_pixel().max(1),
+    )?;
+    decoder.read_info().map_err(fault)
+}
+
+fn pixel_bytes(reader: &mut PngReader<'_>) -> Result<Vec<u8>, Fault> {
+    let size = reader
+        .output_buffer_size()
+        .ok_or_else(|| fault("too large for this machine"))?;
+    let mut data = vec![0; size];
+    let frame = reader.next_frame(&mut data).map_err(fault)?;
+    data.truncate(frame.buffer_size());
+    // Reads to the end, so that a file cut short behind the pixels is refused as well.
+    reader.finish().map_err(fault)?;
+    Ok(data)
+}
+
+pub(crate) fn parse_color(bytes: &[u8]) -> Result<ColorImage, Fault> {
+    let mut reader = open(bytes, Transformations::EXPAND | Transformations::STRIP_16)?;
+    let (width, height) = (reader.info().width as usize, reader.info().height as usize);
+    let data = pixel_bytes(&mut reader)?;
+    let pixels: Vec<[u8; 3]> = match reader.output_color_type() {
+        (ColorType::Rgb, BitDepth::Eight) => data.as_chunks::<3>().0.to_vec(),
+        (ColorType::Rgba, BitDepth::Eight) => data
+            .as_chunks::<4>()
+            .0
+            .iter()
+            .map(|&[r, g, b, _]| [r, g, b])
+            .collect(),
+        (ColorType::Grayscale, BitDepth::Eight) => data.iter().map(|&y| [y; 3]).collect(),
+        (ColorType::GrayscaleAlpha, BitDepth::Eight) => data
+            .as_chunks::<2>()
+            .0
+            .iter()
+            .map(|&[y, _]| [y; 3])
+            .collect(),
+        (color, depth) => return Err(fault(format!("{color:?} pixels of {depth:?} bits"))),
+    };
+    if pixels.len() != width * height {
+        return Err(fault(format!(
+            "{} pixels came out for {width}x{height}",
+            pixels.len()
+        )));
+    }
+    Ok(ColorImage {
+        width,
+        height,
+        pixels,
+    })
+}
+
+pub(crate) fn parse_depth(bytes: &[u8]) -> Result<DepthImage, Fault> {
+    let mut reader = open(bytes, Transformations::IDENTITY)?;
+    let (color, bits) = reader.output_color_type();
+    if (color, bits) != (ColorType::Grayscale, BitDepth::Sixteen) {
+        let problem = format!(
+            "a {}-bit {color:?} image where depth must be 16-bit grey",
+            bits as u8
+        );
+        let remedy = "store depth as 16-bit grey PNG in units of `depth_scale`; a coloured or 8-bit picture of depth has lost it";
+        return Err(Fault::new("PNG header", problem, remedy));
+    }
+    let (width, height) = (reader.info().width as usize, reader.info().height as usize);
+    let data = pixel_bytes(&mut reader)?;
+    let readings: Vec<u16> = data
+        .as_chunks::<2>()
+        .0
+        .iter()
+        .map(|&pair| u16::from_be_bytes(pair))
+        .collect();
+    if readings.len() != width * height {
+        return Err(fault(format!(
+            "{} readings came out for {width}x{height}",
+            readings.len()
+        )));
+    }
+    Ok(DepthImage {
+        width,
+        height,
+        readings,
+    })
+}
+
+pub(crate) fn format_color(image: &ColorImage) -> Result<Vec<u8>, Fault> {
+    let data = image.pixels.as_flattened();
+    encode(
+        image.width,
+        image.height,
+        image.pixels.len(),
+        data,
+        (ColorType::Rgb, BitDepth::Eight),
+    )
+}
+
+pub(crate) fn format_depth(image: &DepthImage) -> Result<Vec<u8>, Fault> {
+    let data: Vec<u8> = image
+        .readings
+        .iter()
+        .flat_map(|r| r.to_be_bytes())
+        .collect();
+    let kind = (ColorType::Grayscale, BitDepth::Sixteen);
+    encode(image.width, image.height, image.readings.len(), &data, kind)
+}
+
+fn encode(
+    width: usize,
+    height: usize,
+    pixel_count: usize,
+    data: &[u8],
+    (color, bits): (ColorType, BitDepth),
+) -> Result<Vec<u8>, Fault> {
+    let fault = |problem: String| {
+        Fault::new(
+            "image to write",
+            problem,
+            "give an image with as many pixels as its size says",
+        )
+    };
+    if width.checked_mul(height) != Some(pixel_count) || pixel_count == 0 {
+        return Err(fault(format!(
+            "{pixel_count} pixels for a size of {width}x{height}"
+        )));
+    }
+    let (Ok(wide), Ok(high)) = (u32::try_from(width), u32::try_from(height)) else {
+        return Err(fault(format!("{width}x{height} is too large for a PNG")));
+    };
+    let mut bytes = Vec::new();
+    let mut encoder = Encoder::new(&mut bytes, wide, high);
+    encoder.set_color(color);
+    encoder.set_depth(bits);
+    encoder
+        .write_header()
+        .and_then(|mut writer| {
+            writer.write_image_data(data)?;
+            writer.finish()
+        })
+        .map_err(|e| fault(e.to_string()))?;
+    Ok(bytes)
+}

@@ -1,0 +1,95 @@
+//! The published method: Gao et al. 2022, Agriculture 12(8), 1170, sections 2.2.3–2.2.5,
+//! doi 10.3390/agriculture12081170.
+
+use crate::{PaperConfig, Status};
+use nalgebra::Point3;
+use pomona_cloud::DepthPoints;
+use pomona_fit::{
+    DistanceWindow, LineEstimator, Points, RadiusWindow, SphereEstimator, SphereRefit,
+    sphere_least_squares,
+};
+use pomona_geometry::{Line, Sphere};
+use pomona_ransac::{FixedCount, InlierCount, Ransac, RansacError, RefitOnce, Report};
+use rand_chacha::ChaCha8Rng;
+
+fn points(cloud: &DepthPoints) -> Option<Points<'_, f32>> {
+    Points::new(&cloud.x, &cloud.y, &cloud.z).ok()
+}
+
+/// The sphere of the points in an apple's box (section 2.2.3).
+///
+/// Spheres through four random points compete for the most points within r/5 of their
+/// surface, r being each sphere's own radius (Eq. 2); the winner's inliers are fitted by linear
+/// least squares (Eqs. 3–7). The radius window is ours: the text has none.
+pub(crate) fn fit_sphere(
+    cloud: &DepthPoints,
+    config: &PaperConfig,
+    rng: &mut ChaCha8Rng,
+) -> Result<Report<Sphere>, Status> {
+    if cloud.is_empty() {
+        return Err(Status::NoDepth);
+    }
+    if cloud.len() < config.sphere_min_points {
+        return Err(Status::TooFewPoints);
+    }
+    let points = points(cloud).ok_or(Status::NoSphere)?;
+    let window = RadiusWindow::new(config.radius_min_m, config.radius_max_m)
+        .map_err(|_| Status::NoSphere)?;
+    let band = config.sphere_band;
+    let report = Ransac::new(InlierCount::within(move |sphere: &Sphere| {
+        band * sphere.radius
+    }))
+    .constraint(window)
+    .local_optimization(RefitOnce)
+    .stopping(FixedCount::new(config.sphere_iterations))
+    .min_inliers(config.sphere_min_points)
+    .run(&SphereEstimator::new(points, SphereRefit::Algebraic), rng)
+    .map_err(|error| match error {
+        RansacError::TooFewData { .. } => Status::TooFewPoints,
+        _ => Status::NoSphere,
+    })?;
+    // The engine kept the sphere before the refit where the refit left the radius window.
+    // The paper would go on with the refit, which is no apple: better to say so.
+    let refused: u64 = report.counts.rejections().iter().map(|r| r.refits).sum();
+    let refittable = sphere_least_squares(points.select(&report.inliers)).is_some();
+    if refused > 0 || !refittable {
+        Err(Status::ImplausibleRadius)
+    } else {
+        Ok(report)
+    }
+}
+
+/// Keeps of `cloud` what lies between the shell's radii about the apple: the paper's `M_inter`
+/// (section 2.2.4), which leaves the apple's own surface out.
+pub(crate) fn keep_shell(cloud: &mut DepthPoints, sphere: &Sphere, config: &PaperConfig) {
+    let inner = (config.shell_inner * sphere.radius).powi(2);
+    let outer = (config.shell_outer * sphere.radius).powi(2);
+    cloud.retain(|p: Point3<f64>| (inner..=outer).contains(&(p - sphere.center).norm_squared()));
+}
+
+/// The line of the nearest branch among the points of the shell (section 2.2.4).
+///
+/// Lines through two random points that pass the centre at 0.5 to 1.5 radii compete for the most
+/// points within 5 mm (Eq. 9); the winner's inliers are fitted by total least squares.
+pub(crate) fn fit_branch(
+    shell: &DepthPoints,
+    sphere: &Sphere,
+    config: &PaperConfig,
+    rng: &mut ChaCha8Rng,
+) -> Result<Report<Line>, Status> {
+    let points = points(shell).ok_or(Status::NoBranch)?;
+    let r = sphere.radius;
+    let window = DistanceWindow::new(
+        sphere.center,
+        config.line_distance_min * r,
+        config.line_distance_max * r,
+    )
+    .map_err(|_| Status::NoBranch)?;
+    Ransac::new(InlierCount::within(config.line_band_m))
+        .constraint(window)
+        .local_optimization(RefitOnce)
+        .stopping(FixedCount::new(config.line_iterations))
+        .min_inliers(config.line_min_points)
+        .run(&LineEstimator::new(points), rng)
+        .map_err(|_| Status::NoBranch)
+}

@@ -1,0 +1,245 @@
+use crate::{
+    AppleRecord, BoxRecord, BranchRecord, Config, FrameRecord, Pick, PickError, Record,
+    RobotRecord, SCHEMA, Status, TimingRecord, paper, seed::apple_rng, surroundings::window_of,
+};
+use nalgebra::{Point3, Vector3};
+use pomona_cloud::{DepthPoints, Frame, PixelBox, PixelWindow};
+use pomona_geometry::Sphere;
+use pomona_transforms::{
+    CameraFrame, Direction, NamedTransform, Position, RobotFrame, ToolOrientation,
+};
+use rayon::prelude::*;
+use std::time::Instant;
+
+/// The transform that brings camera coordinates into the robot's frame.
+pub type RobotFromCamera = NamedTransform<RobotFrame, CameraFrame>;
+
+/// What supports one answer: pixels of the depth image as `v * width + u`, for pictures.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Evidence {
+    /// Pixels on the apple's surface.
+    pub surface: Vec<u32>,
+    /// Pixels on its branch.
+    pub branch: Vec<u32>,
+}
+
+/// The answers for a frame.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outcome {
+    /// What `picks.json` holds.
+    pub record: Record,
+    /// The evidence of each pick, in the same order.
+    pub evidence: Vec<Evidence>,
+}
+
+/// Picks directions by one checked configuration.
+#[derive(Clone, Debug)]
+pub struct Picker {
+    config: Config,
+}
+
+impl Picker {
+    /// A picker with these settings.
+    ///
+    /// # Errors
+    ///
+    /// [`PickError::Config`] names the setting that makes no sense.
+    pub fn new(config: Config) -> Result<Self, PickError> {
+        config.validate()?;
+        Ok(Self { config })
+    }
+
+    /// Its settings.
+    pub fn config(&self) -> &Config {
+        &self.config
+    }
+
+    /// The direction of each boxed apple of `frame`, the apples in parallel.
+    ///
+    /// # Errors
+    ///
+    /// Where the frame has no boxes, its parts contradict each other, or the transform
+    /// starts in another frame than the camera's. An apple without an answer is no error.
+    pub fn pick(
+        &self,
+        frame: &Frame,
+        seed: u64,
+        robot_from_camera: Option<&RobotFromCamera>,
+    ) -> Result<Outcome, PickError> {
+        let Some(boxes) = &frame.boxes else {
+            return Err(PickError::NoBoxes {
+                frame: frame.id.clone(),
+            });
+        };
+        frame.validate().map_err(|source| PickError::Frame {
+            frame: frame.id.clone(),
+            source: Box::new(source),
+        })?;
+        if let Some(transform) = robot_from_camera
+            && transform.from != frame.camera.frame_id
+        {
+            return Err(PickError::WrongTransform {
+                frame: frame.id.clone(),
+                camera: frame.camera.frame_id.clone(),
+                from: transform.from.clone(),
+            });
+        }
+        let picked: Result<Vec<(Pick, Evidence)>, PickError> = boxes
+            .par_iter()
+            .enumerate()
+            .map_init(DepthPoints::new, |points, (id, pixel_box)| {
+                self.pick_apple(frame, id, pixel_box, seed, robot_from_camera, points)
+            })
+            .collect();
+        let (picks, evidence) = picked?.into_iter().unzip();
+        let record = Record {
+            schema: SCHEMA.to_owned(),
+            method: self.config.method.name().to_owned(),
+            seed,
+            frame: FrameRecord {
+                id: frame.id.clone(),
+                frame_id: frame.camera.frame_id.clone(),
+            },
+            picks,
+        };
+        Ok(Outcome { record, evidence })
+    }
+
+    fn pick_apple(
+        &self,
+        frame: &Frame,
+        id: usize,
+        pixel_box: &PixelBox,
+        seed: u64,
+        robot_from_camera: Option<&RobotFromCamera>,
+        points: &mut DepthPoints,
+    ) -> Result<(Pick, Evidence), PickError> {
+        let start = Instant::now();
+        let mut pick = Pick {
+            id,
+            pixel_box: BoxRecord::from(pixel_box),
+            status: Status::Picked,
+            apple: None,
+            branch: None,
+            foot: None,
+            direction: None,
+            robot: None,
+            timing_ms: TimingRecord::default(),
+        };
+        let mut evidence = Evidence::default();
+        let status = self.follow_paper(frame, seed, points, &mut pick, &mut evidence)?;
+        pick.status = status;
+        if let (Some(transform), Some(apple), Some(direction)) =
+            (robot_from_camera, &pick.apple, pick.direction)
+        {
+            pick.robot = robot_record(transform, apple.center, direction);
+        }
+        pick.timing_ms.total = milliseconds(start);
+        Ok((pick, evidence))
+    }
+
+    /// Fills in what the method finds, stage by stage, and says how it ended.
+    fn follow_paper(
+        &self,
+        frame: &Frame,
+        seed: u64,
+        points: &mut DepthPoints,
+        pick: &mut Pick,
+        evidence: &mut Evidence,
+    ) -> Result<Status, PickError> {
+        let config = &self.config.paper;
+        let (width, height) = (frame.depth.width, frame.depth.height);
+        let mut rng = apple_rng(seed, &frame.id, pick.id);
+
+        let start = Instant::now();
+        let b = &pick.pixel_box;
+        let window = PixelWindow::clamped(b.x_min, b.y_min, b.x_max, b.y_max, width, height);
+        fill(points, frame, window)?;
+        pick.timing_ms.crop = milliseconds(start);
+
+        let start = Instant::now();
+        let sphere = paper::fit_sphere(points, config, &mut rng);
+        pick.timing_ms.sphere = milliseconds(start);
+        let sphere = match sphere {
+            Ok(report) => report,
+            Err(status) => return Ok(status),
+        };
+        evidence.surface = sphere.inliers.iter().map(|&i| points.pixel[i]).collect();
+        let apple = sphere.model;
+        pick.apple = Some(AppleRecord {
+            center: apple.center.into(),
+            radius: apple.radius,
+            inliers: sphere.inliers.len(),
+            rms: sphere.residuals.rms,
+        });
+
+        let start = Instant::now();
+        let reach = Sphere {
+            radius: apple.radius * config.shell_outer,
+            ..apple
+        };
+        fill(
+            points,
+            frame,
+            window_of(&reach, &frame.camera, width, height),
+        )?;
+        paper::keep_shell(points, &apple, config);
+        let branch = paper::fit_branch(points, &apple, config, &mut rng);
+        pick.timing_ms.branch = milliseconds(start);
+        let branch = match branch {
+            Ok(report) => report,
+            Err(status) => return Ok(status),
+        };
+        evidence.branch = branch.inliers.iter().map(|&i| points.pixel[i]).collect();
+        let line = branch.model;
+        pick.branch = Some(BranchRecord {
+            point: line.point.into(),
+            direction: line.direction.into_inner().into(),
+            inliers: branch.inliers.len(),
+            rms: branch.residuals.rms,
+        });
+
+        // Section 2.2.5: C is the foot of the perpendicular from O, and OC the direction. The distance
+        // window keeps C off O unless its lower bound is 0.
+        let foot = line.foot(&apple.center);
+        let Some(direction) = (foot - apple.center).try_normalize(1e-9) else {
+            return Ok(Status::NoBranch);
+        };
+        pick.foot = Some(foot.into());
+        pick.direction = Some(direction.into());
+        Ok(Status::Picked)
+    }
+}
+
+fn fill(points: &mut DepthPoints, frame: &Frame, window: PixelWindow) -> Result<(), PickError> {
+    points
+        .fill(&frame.depth, &frame.camera, window)
+        .map_err(|source| PickError::Frame {
+            frame: frame.id.clone(),
+            source: Box::new(source),
+        })
+}
+
+fn milliseconds(since: Instant) -> f64 {
+    since.elapsed().as_secs_f64() * 1e3
+}
+
+fn robot_record(
+    robot_from_camera: &RobotFromCamera,
+    center: [f64; 3],
+    direction: [f64; 3],
+) -> Option<RobotRecord> {
+    let center = Position::<CameraFrame>::new(Point3::from(center));
+    let direction = Direction::<CameraFrame>::new(Vector3::from(direction))?;
+    let center = robot_from_camera.transform.position(&center);
+    let direction = robot_from_camera.transform.direction(&direction);
+    let tool = ToolOrientation::along(&direction);
+    Some(RobotRecord {
+        frame_id: robot_from_camera.to.clone(),
+        center: center.point().into(),
+        direction: direction.vector().into(),
+        quaternion_xyzw: tool.quaternion_xyzw(),
+        euler_zyx: [tool.euler.rx, tool.euler.ry, tool.euler.rz],
+        singular: tool.singular,
+    })
+}

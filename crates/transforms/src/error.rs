@@ -1,0 +1,168 @@
+use crate::json::{MAX_TRANSLATION_M, SCHEMA};
+use std::path::PathBuf;
+use thiserror::Error;
+
+/// Why numbers are no rigid transform.
+///
+/// Every message names the field, what is wrong with it, and what to do about it.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum TransformError {
+    /// A number that must be finite is not.
+    #[error(
+        "`{field}` holds a number that is not finite; repeat the calibration, or copy its result again"
+    )]
+    NotFinite {
+        /// Name of the field.
+        field: &'static str,
+    },
+    /// A quaternion whose norm is not 1 within 1e-3.
+    #[error(
+        "`{field}` has norm {norm} but a rotation's is 1; copy all digits, in the order x y z w"
+    )]
+    NotUnit {
+        /// Name of the field.
+        field: &'static str,
+        /// Its norm.
+        norm: f64,
+    },
+    /// A matrix whose upper left 3×3 part is no rotation within 1e-3.
+    #[error(
+        "`{field}` is {deviation:.2e} away from a rotation in its upper left 3x3 part (at most 1e-3); copy all digits, and leave scaling out"
+    )]
+    NotOrthonormal {
+        /// Name of the field.
+        field: &'static str,
+        /// Distance to the nearest orthonormal matrix in the spectral norm, or less.
+        deviation: f64,
+    },
+    /// A matrix that mirrors.
+    #[error(
+        "`{field}` mirrors: its upper left 3x3 part has determinant -1, a rotation's is +1; negate the axis that belongs to a left-handed frame"
+    )]
+    LeftHanded {
+        /// Name of the field.
+        field: &'static str,
+    },
+    /// A matrix whose last row is not 0 0 0 1.
+    #[error(
+        "`{field}` ends with the row {row:?} but must end with [0, 0, 0, 1]; write it row by row, with the translation in the last column"
+    )]
+    LastRow {
+        /// Name of the field.
+        field: &'static str,
+        /// The row.
+        row: [f64; 4],
+    },
+}
+
+/// Why a transform's file could not be read or written.
+///
+/// Every message names the file, the place in it, and what to do about it.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum TransformFileError {
+    /// The operating system refused to read the file, for example because there is none.
+    #[error("{}: cannot be read: {source}; {}", .path.display(), read_remedy(.source))]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// The operating system refused to write the file.
+    #[error("{}: cannot be written: {source}; check that the folder exists, is writable and has room", .path.display())]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// The file is not JSON, or not of the schema's form: a field is unknown, missing, given
+    /// twice or of another type.
+    #[error("{}: line {line} column {column}: {problem}; {remedy}", .path.display())]
+    Json {
+        /// The file.
+        path: PathBuf,
+        /// Line, from 1.
+        line: usize,
+        /// Column, from 1; 0 where only the line is known.
+        column: usize,
+        /// What is wrong there.
+        problem: String,
+        /// What to do about it.
+        remedy: &'static str,
+    },
+    /// The file is of another schema, or does not say of which.
+    #[error(
+        "{}: `schema` is {} but must be \"{SCHEMA}\"; give a transform's file, in that form",
+        .path.display(), .found.as_deref().unwrap_or("missing")
+    )]
+    Schema {
+        /// The file.
+        path: PathBuf,
+        /// What `schema` holds, as JSON; `None` where there is none.
+        found: Option<String>,
+    },
+    /// A frame's id is empty.
+    #[error("{}: `{field}` is empty; name the frame, as the camera's or the robot's programs do", .path.display())]
+    NoFrameId {
+        /// The file.
+        path: PathBuf,
+        /// `to` or `from`.
+        field: &'static str,
+    },
+    /// The file gives no rotation, or no translation.
+    #[error(
+        "{}: there is no {part}; give `translation_m` and `quaternion_xyzw`, or `matrix`",
+        .path.display()
+    )]
+    MissingPart {
+        /// The file.
+        path: PathBuf,
+        /// `rotation` or `translation`.
+        part: &'static str,
+    },
+    /// The file gives a rotation, or a translation, twice.
+    #[error(
+        "{}: `{field}` and `matrix` both give the {part}; keep `translation_m` and `quaternion_xyzw`, or `matrix`",
+        .path.display()
+    )]
+    TwoForms {
+        /// The file.
+        path: PathBuf,
+        /// `rotation` or `translation`.
+        part: &'static str,
+        /// The field beside `matrix`.
+        field: &'static str,
+    },
+    /// A translation so long that its unit is not metres.
+    #[error(
+        "{}: the translation in `{field}` is {length_m:.1} m long, more than {MAX_TRANSLATION_M} m; give metres: it looks like millimetres",
+        .path.display()
+    )]
+    TooFar {
+        /// The file.
+        path: PathBuf,
+        /// The field that holds it.
+        field: &'static str,
+        /// Its length, taken as metres.
+        length_m: f64,
+    },
+    /// The numbers are no rigid transform.
+    #[error("{}: {source}", .path.display())]
+    Numbers {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with them.
+        source: TransformError,
+    },
+}
+
+fn read_remedy(source: &std::io::Error) -> &'static str {
+    match source.kind() {
+        std::io::ErrorKind::NotFound => "check the path",
+        std::io::ErrorKind::PermissionDenied => "check the file's permissions",
+        _ => "check that it is a plain, readable file",
+    }
+}

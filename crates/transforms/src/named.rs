@@ -1,0 +1,86 @@
+use crate::{FrameTag, Transform, TransformFileError, file, json};
+use std::path::Path;
+
+/// A transform together with the ids that its frames have at run time.
+///
+/// The types tell a camera's frame from a robot's; the ids tell one camera from another. Compare
+/// `from` with the id in the camera's own file before using it.
+///
+/// Its file is JSON of our own schema:
+///
+/// ```json
+/// { "schema": "pomona.transform/1",
+///   "to": "base_link",
+///   "from": "camera_color_optical_frame",
+///   "translation_m": [0.1, -0.2, 1.3],
+///   "quaternion_xyzw": [0.5, -0.5, 0.5, -0.5] }
+/// ```
+///
+/// In place of the last two it may give `"matrix": [[…], […], […], [0, 0, 0, 1]]`, the
+/// homogeneous matrix row by row, its translation in metres.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NamedTransform<To: FrameTag, From: FrameTag> {
+    /// The transform.
+    pub transform: Transform<To, From>,
+    /// Id of the frame it leads to.
+    pub to: String,
+    /// Id of the frame it starts in.
+    pub from: String,
+}
+
+impl<To: FrameTag, From: FrameTag> NamedTransform<To, From> {
+    /// A transform between the frames with these ids.
+    pub fn new(
+        transform: Transform<To, From>,
+        to: impl Into<String>,
+        from: impl Into<String>,
+    ) -> Self {
+        Self {
+            transform,
+            to: to.into(),
+            from: from.into(),
+        }
+    }
+
+    /// The transform back, between the same ids.
+    #[must_use]
+    pub fn inverse(&self) -> NamedTransform<From, To> {
+        NamedTransform {
+            transform: self.transform.inverse(),
+            to: self.from.clone(),
+            from: self.to.clone(),
+        }
+    }
+
+    /// Reads a transform's file.
+    ///
+    /// The rotation may be rounded: a quaternion is normalised, and a matrix replaced by the
+    /// nearest rotation, where they are off by 1e-3 at most.
+    ///
+    /// # Errors
+    ///
+    /// [`TransformFileError::Read`]; [`Json`](TransformFileError::Json) for what is not JSON or
+    /// not of the form above; [`Schema`](TransformFileError::Schema),
+    /// [`NoFrameId`](TransformFileError::NoFrameId),
+    /// [`MissingPart`](TransformFileError::MissingPart),
+    /// [`TwoForms`](TransformFileError::TwoForms), [`TooFar`](TransformFileError::TooFar),
+    /// [`Numbers`](TransformFileError::Numbers).
+    pub fn read(path: impl AsRef<Path>) -> Result<Self, TransformFileError> {
+        let path = path.as_ref();
+        let bytes = file::read_bytes(path)?;
+        json::parse(&bytes).map_err(|fault| fault.at(path))
+    }
+
+    /// Writes a transform's file, with translation and quaternion, w ≥ 0. The file appears as a
+    /// whole or not at all.
+    ///
+    /// # Errors
+    ///
+    /// [`TransformFileError::NoFrameId`], [`TransformFileError::TooFar`] for what could not be
+    /// read back; [`TransformFileError::Write`].
+    pub fn write(&self, path: impl AsRef<Path>) -> Result<(), TransformFileError> {
+        let path = path.as_ref();
+        let text = json::format(self).map_err(|fault| fault.at(path))?;
+        file::write_atomically(path, text.as_bytes())
+    }
+}

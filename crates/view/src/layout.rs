@@ -1,0 +1,305 @@
+use crate::ink::Ink;
+
+/// A rectangle of whole pixels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Plate {
+    pub(crate) left: i32,
+    pub(crate) top: i32,
+    pub(crate) width: i32,
+    pub(crate) height: i32,
+}
+
+impl Plate {
+    pub(crate) fn right(self) -> i32 {
+        self.left + self.width
+    }
+
+    pub(crate) fn bottom(self) -> i32 {
+        self.top + self.height
+    }
+
+    pub(crate) fn edges(self) -> [f32; 4] {
+        [self.left, self.top, self.right(), self.bottom()].map(|edge| edge as f32)
+    }
+
+    /// Whether both share a pixel.
+    pub(crate) fn overlaps(self, other: Self) -> bool {
+        self.left < other.right()
+            && other.left < self.right()
+            && self.top < other.bottom()
+            && other.top < self.bottom()
+    }
+
+    /// The straight gap between both, pixels; 0 where they touch.
+    pub(crate) fn gap(self, other: Self) -> f32 {
+        let dx = (other.left - self.right())
+            .max(self.left - other.right())
+            .max(0);
+        let dy = (other.top - self.bottom())
+            .max(self.top - other.bottom())
+            .max(0);
+        (dx as f32).hypot(dy as f32)
+    }
+}
+
+/// What wants a label: its size, the thing it names, and where the label would best have its centre.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Wish {
+    pub(crate) width: i32,
+    pub(crate) height: i32,
+    pub(crate) anchor: Plate,
+    pub(crate) center: Option<(i32, i32)>,
+}
+
+/// Places labels one after the other, each where it overlaps none before it,
+/// hides little and is near what it names.
+pub(crate) struct Layout<'a> {
+    width: i32,
+    height: i32,
+    ink: &'a Ink,
+    /// Placed plates, by the squares of the picture that they touch.
+    squares: Vec<Vec<Plate>>,
+    columns: i32,
+    /// The smallest sizes that found no room; more labels never make more room.
+    hopeless: Vec<(i32, i32)>,
+}
+
+/// Side of the squares by which placed plates are found again, pixels.
+const SQUARE: i32 = 64;
+/// Rings of candidates around the thing named; each is half a label's height further out.
+const RINGS: i32 = 12;
+/// What a fully hidden thing costs, in rings of distance.
+const HIDING_COST: f64 = 14.0;
+
+impl<'a> Layout<'a> {
+    pub(crate) fn new(width: usize, height: usize, ink: &'a Ink) -> Self {
+        let (width, height) = (width as i32, height as i32);
+        let columns = width / SQUARE + 1;
+        let squares = vec![Vec::new(); (columns * (height / SQUARE + 1)) as usize];
+        Self {
+            width,
+            height,
+            ink,
+            squares,
+            columns,
+            hopeless: Vec::new(),
+        }
+    }
+
+    /// Takes the room for a plate that stands already.
+    pub(crate) fn reserve(&mut self, plate: Plate) {
+        for square in self.squares_of(plate) {
+            self.squares[square].push(plate);
+        }
+    }
+
+    /// Finds room for a label and takes it; `None` where there is none.
+    ///
+    /// Looked at are positions in rings around the thing named, then a raster over the whole picture.
+    pub(crate) fn place(&mut self, wish: &Wish) -> Option<Plate> {
+        let plate = self.near(wish).or_else(|| self.anywhere(wish))?;
+        self.reserve(plate);
+        Some(plate)
+    }
+
+    fn near(&self, wish: &Wish) -> Option<Plate> {
+        let mut best: Option<(f64, Plate)> = None;
+        let mut consider = |left: i32, top: i32, distance: f64| {
+            let Some(plate) = self.inside(left, top, wish) else {
+                return;
+            };
+            let shift = f64::from((plate.left - left).abs() + (plate.top - top).abs());
+            let hidden = self.ink.mean(plate.edges());
+            let cost = HIDING_COST * hidden + distance + shift / f64::from(wish.height.max(1));
+            if best.is_none_or(|(least, _)| cost < least) && self.is_free(plate) {
+                best = Some((cost, plate));
+            }
+        };
+        if let Some((x, y)) = wish.center {
+            consider(x - wish.width / 2, y - wish.height / 2, 0.0);
+        }
+        for ring in 0..RINGS {
+            let out = ring * wish.height / 2;
+            for (order, (left, top)) in around(wish, out).into_iter().enumerate() {
+                consider(left, top, 0.5 + f64::from(ring) + 0.01 * order as f64);
+            }
+        }
+        best.map(|(_, plate)| plate)
+    }
+
+    fn anywhere(&mut self, wish: &Wish) -> Option<Plate> {
+        let (w, h) = (wish.width, wish.height);
+        let too_large = w > self.width || h > self.height;
+        if too_large || w < 1 || h < 1 || self.hopeless.iter().any(|(fw, fh)| w >= *fw && h >= *fh)
+        {
+            return None;
+        }
+        let rows = (0..=self.height - h).step_by(h.unsigned_abs() as usize);
+        let places = rows.flat_map(|top| {
+            let columns = (0..=self.width - w).step_by(h.unsigned_abs() as usize);
+            columns.map(move |left| Plate {
+                left,
+                top,
+                width: w,
+                height: h,
+            })
+        });
+        let free = places.filter(|plate| self.is_free(*plate));
+        let nearest = free.min_by(|a, b| a.gap(wish.anchor).total_cmp(&b.gap(wish.anchor)));
+        if nearest.is_none() {
+            self.hopeless.push((w, h));
+        }
+        nearest
+    }
+
+    /// The label at this corner, moved into the picture; `None` where it is larger than that.
+    fn inside(&self, left: i32, top: i32, wish: &Wish) -> Option<Plate> {
+        let (room_x, room_y) = (self.width - wish.width, self.height - wish.height);
+        (room_x >= 0 && room_y >= 0).then(|| Plate {
+            left: left.clamp(0, room_x),
+            top: top.clamp(0, room_y),
+            width: wish.width,
+            height: wish.height,
+        })
+    }
+
+    fn is_free(&self, plate: Plate) -> bool {
+        // One pixel of air between labels.
+        let Plate {
+            left,
+            top,
+            width,
+            height,
+        } = plate;
+        let aired = Plate {
+            left: left - 1,
+            top: top - 1,
+            width: width + 2,
+            height: height + 2,
+        };
+        self.squares_of(plate)
+            .all(|square| self.squares[square].iter().all(|p| !p.overlaps(aired)))
+    }
+
+    fn squares_of(&self, plate: Plate) -> impl Iterator<Item = usize> + use<> {
+        // One pixel more, so that a neighbour across a square's border is seen.
+        let range = |from: i32, to: i32, size: i32| {
+            let last = size / SQUARE;
+            ((from - 1) / SQUARE).clamp(0, last)..=((to + 1) / SQUARE).clamp(0, last)
+        };
+        let columns = self.columns;
+        let across = range(plate.left, plate.right(), self.width);
+        range(plate.top, plate.bottom(), self.height).flat_map(move |row| {
+            across
+                .clone()
+                .map(move |column| (row * columns + column) as usize)
+        })
+    }
+}
+
+/// Top-left corners of the label around its anchor, `out` px further away than touching.
+fn around(wish: &Wish, out: i32) -> [(i32, i32); 12] {
+    let a = wish.anchor;
+    let gap = out + 3;
+    let (above, below) = (a.top - gap - wish.height, a.bottom() + gap);
+    let (before, after) = (a.left - gap - wish.width, a.right() + gap);
+    let (middle_x, middle_y) = (
+        a.left + (a.width - wish.width) / 2,
+        a.top + (a.height - wish.height) / 2,
+    );
+    let (flush_right, flush_bottom) = (a.right() - wish.width, a.bottom() - wish.height);
+    [
+        (a.left, above),
+        (middle_x, above),
+        (flush_right, above),
+        (a.left, below),
+        (middle_x, below),
+        (flush_right, below),
+        (after, a.top),
+        (after, middle_y),
+        (after, flush_bottom),
+        (before, a.top),
+        (before, middle_y),
+        (before, flush_bottom),
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn wish(x: i32, y: i32, width: i32, height: i32) -> Wish {
+        Wish {
+            width,
+            height,
+            anchor: Plate {
+                left: x,
+                top: y,
+                width: 20,
+                height: 20,
+            },
+            center: None,
+        }
+    }
+
+    fn lies_inside(p: Plate, width: i32, height: i32) -> bool {
+        p.left >= 0 && p.top >= 0 && p.right() <= width && p.bottom() <= height
+    }
+
+    #[test]
+    fn a_lone_label_stands_beside_its_thing() {
+        let mut ink = Ink::new(200, 100);
+        ink.spread([90.0, 40.0, 110.0, 60.0], 1.0);
+        let ink = ink.settle();
+        let plate = Layout::new(200, 100, &ink)
+            .place(&wish(90, 40, 40, 12))
+            .unwrap();
+        assert!(plate.gap(wish(90, 40, 0, 0).anchor) <= 5.0);
+        assert_eq!(ink.mean(plate.edges()), 0.0);
+    }
+
+    #[test]
+    fn what_does_not_fit_is_left_out() {
+        let ink = Ink::new(50, 50).settle();
+        let mut layout = Layout::new(50, 50, &ink);
+        assert!(layout.place(&wish(0, 0, 51, 5)).is_none());
+        assert!(layout.place(&wish(0, 0, 50, 50)).is_some());
+        assert!(layout.place(&wish(0, 0, 1, 1)).is_none());
+    }
+
+    proptest! {
+        // 40 labels take at most a quarter of this picture, so all find room.
+        #[test]
+        fn labels_neither_overlap_nor_leave_the_picture(
+            things in prop::collection::vec((-50..700i32, -50..500i32, 10..80i32), 0..40),
+        ) {
+            let ink = Ink::new(640, 480).settle();
+            let mut layout = Layout::new(640, 480, &ink);
+            let mut placed: Vec<Plate> = Vec::new();
+            for (x, y, width) in &things {
+                let plate = layout.place(&wish(*x, *y, *width, 18));
+                prop_assert!(plate.is_some());
+                placed.extend(plate);
+            }
+            for (i, a) in placed.iter().enumerate() {
+                prop_assert!(lies_inside(*a, 640, 480));
+                prop_assert!(placed[..i].iter().all(|b| !a.overlaps(*b)));
+            }
+        }
+
+        #[test]
+        fn crowds_stay_apart_too(
+            things in prop::collection::vec((0..200i32, 0..100i32, 1..90i32), 0..200),
+        ) {
+            let ink = Ink::new(200, 100).settle();
+            let mut layout = Layout::new(200, 100, &ink);
+            let placed: Vec<Plate> =
+                things.iter().filter_map(|(x, y, width)| layout.place(&wish(*x, *y, *width, 18))).collect();
+            for (i, a) in placed.iter().enumerate() {
+                prop_assert!(lies_inside(*a, 200, 100));
+                prop_assert!(placed[..i].iter().all(|b| !a.overlaps(*b)));
+            }
+        }
+    }
+}

@@ -1,1 +1,113 @@
-//! To be written.
+//! Synthetic RGB-D frames of apples on branches, with the truth beside them.
+//!
+//! ```
+//! use pomona_scenes::Suite;
+//!
+//! // The first of the paper's fifteen lab orientations, in memory.
+//! let scene = Suite::named("lab15")?.scenes().next().expect("fifteen of them");
+//! let apple = &scene.truth.apples[0];
+//! assert_eq!(scene.frame.id, "lab-x-90-s0");
+//! assert_eq!(apple.radius, 0.025_78);
+//!
+//! // Its branch passes behind the apple: the true picking direction is forward.
+//! let direction = apple.direction.expect("the lab apple has a branch");
+//! assert!((direction[2] - 1.0).abs() < 1e-12);
+//!
+//! // Or as a folder with color.png, depth.png, camera.json, boxes and truth.json.
+//! # let folder = std::env::temp_dir().join(format!("pomona-scenes-doc-{}", std::process::id()));
+//! scene.write(&folder)?;
+//! # std::fs::remove_dir_all(&folder)?;
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # Concepts
+//!
+//! - A [`World`] holds shapes in the camera's frame (x right, y down, z
+//!   forward; metres): [`Apple`]s, [`Branch`]es along smooth [`Curve`]s, twigs
+//!   that are no branches, [`Leaf`]s, a backdrop or none.
+//! - A [`Shot`] takes a [`Scene`] of it: the ray of every pixel stops at the
+//!   first surface, so that things hide one another as they would; a
+//!   [`Sensor`] turns the exact depths into readings.
+//! - A [`Truth`] says, for every apple with a box, where it is, which branch is
+//!   nearest, in which direction to pick, and how much of apple and branch the
+//!   camera sees: enough to judge a refusal right or wrong.
+//! - A [`Suite`] is a named list of scenes that are the same for everyone:
+//!   all randomness comes from explicit seeds, and the bytes do not depend on
+//!   the number of threads. `lab15` and `lab150` are the paper's lab, `repeat474`
+//!   its repeats (`-none`, `-light`, `-dense` with fewer or more leaves),
+//!   `orchard` random branches, `harsh` the same outdoors (`-kinect`,
+//!   `-azure-kinect`, `-d400` by other cameras), `row` whole trees, `demo` a picture.
+//!
+//! An own scene, seen by a camera without noise:
+//!
+//! ```
+//! use nalgebra::Point3;
+//! use pomona_scenes::{Apple, Branch, Curve, Light, Sensor, Shot, World};
+//!
+//! let mut world = World::new(Light::default());
+//! world.add_apple(Apple::sphere(Point3::new(0.0, 0.0, 0.8), 0.04));
+//! world.add_branch(Branch {
+//!     curve: Curve::straight(Point3::new(-0.2, -0.05, 0.8), Point3::new(0.2, -0.05, 0.8)),
+//!     start_radius: 0.006,
+//!     end_radius: 0.004,
+//! });
+//! let scene = Shot::new("own", Shot::paper_camera(), Sensor::perfect(), 0).take(&world);
+//! // The pixel in the middle reads the apple's front: 0.76 m.
+//! let reading = scene.frame.depth.get(640, 480).expect("inside the image");
+//! assert!((f64::from(reading) * scene.frame.camera.depth_scale - 0.76).abs() < 1e-4);
+//! ```
+//!
+//! # Not here
+//!
+//! Anything that looks for apples: the pipeline is judged by this crate and
+//! must stay unknown to it. Lens distortion, motion blur and photographic
+//! realism: the colours are there for detectors of coloured shapes and for people.
+//!
+//! # References
+//!
+//! - Gao, Zhou, Cao, Jiang 2022, "An Algorithm for Calculating Apple Picking
+//!   Direction Based on 3D Vision", Agriculture 12(8), 1170,
+//!   doi 10.3390/agriculture12081170: the lab set-up and the repeats.
+
+mod apple;
+mod cameras;
+mod curve;
+mod demo;
+mod error;
+mod grow;
+mod lab;
+mod leaf;
+mod light;
+mod limb;
+mod orchard;
+mod random;
+mod ray;
+mod raycast;
+mod repeat;
+mod row;
+mod scene;
+mod sensing;
+mod sensor;
+mod shade;
+mod shot;
+mod suite;
+mod truth;
+mod visibility;
+mod world;
+
+pub use apple::{Apple, Variety};
+pub use cameras::Make;
+pub use curve::Curve;
+pub use error::SceneError;
+pub use lab::{Axis, Lab, Orientation};
+pub use leaf::Leaf;
+pub use light::Light;
+pub use orchard::Orchard;
+pub use repeat::{Density, Repeat};
+pub use row::Row;
+pub use scene::Scene;
+pub use sensor::{Axial, Bias, Dropout, Edges, Sensor, Sunlight, Thin};
+pub use shot::Shot;
+pub use suite::{Case, Suite};
+pub use truth::{AppleTruth, BranchTruth, TRUTH_FILE, TRUTH_SCHEMA, Truth};
+pub use world::{Bark, Branch, World};

@@ -1,0 +1,53 @@
+use pomona_cloud::CloudError;
+use std::path::{Path, PathBuf};
+use thiserror::Error;
+
+/// Why a scene could not be named, written or read.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum SceneError {
+    /// No suite has that name.
+    #[error("no suite is called `{name}`; the suites are {}", .known.join(", "))]
+    UnknownSuite {
+        /// The name asked for.
+        name: String,
+        /// The names there are.
+        known: Vec<&'static str>,
+    },
+    /// The folder is there and holds what is not a scene of ours.
+    #[error(
+        "{path}: holds files that are not a scene; name a new or empty folder, or one with a truth.json"
+    )]
+    Occupied {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// The system refused a file.
+    #[error("{path}: {source}")]
+    Io {
+        /// The file or folder.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// The frame's own files could not be written.
+    #[error(transparent)]
+    Frame(#[from] CloudError),
+    /// A truth file is not one.
+    #[error("{path}: {reason}")]
+    Truth {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        reason: String,
+    },
+}
+
+impl SceneError {
+    pub(crate) fn io(path: &Path, source: std::io::Error) -> Self {
+        Self::Io {
+            path: path.into(),
+            source,
+        }
+    }
+}

@@ -1,0 +1,138 @@
+use crate::raycast::{Raycast, raycast};
+use crate::scene::Scene;
+use crate::sensing::sense;
+use crate::sensor::Sensor;
+use crate::shade::shade;
+use crate::truth::{AppleTruth, Truth};
+use crate::visibility::look_at;
+use crate::world::World;
+use pomona_cloud::{Camera, ColorImage, Frame, PixelBox};
+
+/// How a frame is taken of a world.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Shot {
+    /// Name of the frame.
+    pub id: String,
+    /// The camera that really stands there; its depth scale gives way to the sensor's.
+    pub camera: Camera,
+    /// What happens to the depth.
+    pub sensor: Sensor,
+    /// Seed of the sensor's noise.
+    pub seed: u64,
+    /// Pixels by which a box is wider on each side than what shows of its apple.
+    pub box_margin_px: f64,
+    /// Pixels that must show of an apple for it to be boxed and known to the truth.
+    pub least_pixels: usize,
+    /// Number of the apple that the scene is made for, where it is made for one.
+    pub target: Option<usize>,
+}
+
+impl Shot {
+    /// A shot with boxes 2 pixels wide of their apples, of which 30 pixels must show.
+    pub fn new(id: impl Into<String>, camera: Camera, sensor: Sensor, seed: u64) -> Self {
+        Self {
+            id: id.into(),
+            camera,
+            sensor,
+            seed,
+            box_margin_px: 2.0,
+            least_pixels: 30,
+            target: None,
+        }
+    }
+
+    /// The paper's camera: 1280×960 pixels, f = 1080 px.
+    pub fn paper_camera() -> Camera {
+        Camera {
+            width: 1280,
+            height: 960,
+            fx: 1080.0,
+            fy: 1080.0,
+            cx: 639.5,
+            cy: 479.5,
+            depth_scale: Sensor::paper().depth_scale,
+            frame_id: "camera_color_optical_frame".into(),
+            distortion: None,
+        }
+    }
+
+    /// Takes the frame. The bytes depend on the world and on this shot alone.
+    ///
+    /// The camera's lens distortion is not applied: the world is seen through a pinhole.
+    pub fn take(&self, world: &World) -> Scene {
+        let cast = raycast(world, &self.camera);
+        self.develop(world, &cast)
+    }
+
+    pub(crate) fn develop(&self, world: &World, cast: &Raycast) -> Scene {
+        let sensor = &self.sensor;
+        let real = Camera {
+            depth_scale: sensor.depth_scale,
+            distortion: None,
+            ..self.camera.clone()
+        };
+        let stated = Camera {
+            fx: real.fx * (1.0 + sensor.focal_error),
+            fy: real.fy * (1.0 + sensor.focal_error),
+            ..real.clone()
+        };
+        let known = |index: usize| {
+            let apple = look_at(
+                world,
+                &real,
+                cast,
+                index,
+                self.box_margin_px,
+                self.least_pixels,
+            )?;
+            let bounds = moved(apple.bounds, sensor.color_shift_px, &real);
+            let target = self.target.map(|target| target == index);
+            Some(AppleTruth {
+                bounds,
+                target,
+                ..apple
+            })
+        };
+        let apples: Vec<_> = (0..world.apples.len()).filter_map(known).collect();
+        let frame = Frame {
+            id: self.id.clone(),
+            color: shifted(shade(world, &real, cast), sensor.color_shift_px),
+            depth: sense(world, &real, cast, sensor, self.seed),
+            boxes: Some(apples.iter().map(|a| a.bounds.clone()).collect()),
+            camera: stated.clone(),
+        };
+        let mut truth = Truth::new(apples);
+        truth.seed = Some(self.seed);
+        truth.sensor = Some(sensor.name.to_string());
+        truth.camera = (stated != real).then_some(real);
+        Scene { frame, truth }
+    }
+}
+
+/// The image moved right and down; its edge is repeated where nothing comes in.
+fn shifted(image: ColorImage, (right, down): (i32, i32)) -> ColorImage {
+    if (right, down) == (0, 0) {
+        return image;
+    }
+    let (w, h) = (image.width as i64, image.height as i64);
+    let mut pixels = Vec::with_capacity(image.pixels.len());
+    for y in 0..h {
+        let from_y = (y - i64::from(down)).clamp(0, h - 1);
+        let row = &image.pixels[(from_y * w) as usize..((from_y + 1) * w) as usize];
+        pixels.extend((0..w).map(|x| row[(x - i64::from(right)).clamp(0, w - 1) as usize]));
+    }
+    ColorImage { pixels, ..image }
+}
+
+/// A box that moves with the colour image, inside it.
+fn moved(bounds: PixelBox, (right, down): (i32, i32), camera: &Camera) -> PixelBox {
+    let (right, down) = (f64::from(right), f64::from(down));
+    let (width, height) = (camera.width as f64, camera.height as f64);
+    PixelBox {
+        x_min: (bounds.x_min + right).clamp(0.0, width - 1.0),
+        y_min: (bounds.y_min + down).clamp(0.0, height - 1.0),
+        x_max: (bounds.x_max + right).clamp(1.0, width),
+        y_max: (bounds.y_max + down).clamp(1.0, height),
+        ..bounds
+    }
+}

@@ -16,10 +16,10 @@ pub enum SceneError {
     },
     /// The folder is there and holds what is not a scene of ours.
     #[error(
-        "{path}: holds files that are not a scene; name a new or empty folder, or one with a truth.json"
+        "{path}: is no file of a scene and would be lost; name a new folder, an empty one, or one that holds a scene alone"
     )]
     Occupied {
-        /// The folder.
+        /// The file or folder in the way.
         path: PathBuf,
     },
     /// The system refused a file.

@@ -17,11 +17,12 @@ use rand::RngExt;
 pub enum Density {
     /// None.
     None,
-    /// Two.
+    /// Three.
     Light,
-    /// Five: about as many as the paper's figure shows.
+    /// Seven: with the other amounts of [`Repeat`], enough to scatter the published method
+    /// as its authors report.
     Paper,
-    /// Ten.
+    /// Twelve.
     Dense,
 }
 
@@ -30,9 +31,9 @@ impl Density {
     pub fn leaves(self) -> usize {
         match self {
             Self::None => 0,
-            Self::Light => 2,
-            Self::Paper => 5,
-            Self::Dense => 10,
+            Self::Light => 3,
+            Self::Paper => 7,
+            Self::Dense => 12,
         }
     }
 }
@@ -42,13 +43,16 @@ impl Density {
 ///
 /// Noise alone does not scatter the published method as its authors report,
 /// so between two frames leaves sway, readings drop out and the box shifts, by
-/// the amounts given here.
+/// the amounts given here. They were chosen by search, so that the method `paper` scatters about its own
+/// mean as printed: 11.81° ± 13.65°, 63 % within 10°, 85 % within 20°, 3.4 % beyond 50°.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Repeat {
     /// Radius of the apple, metres.
     pub apple_radius: f64,
     /// Radius of the branch, metres.
     pub branch_radius: f64,
+    /// Length of the branch, metres.
+    pub branch_length: f64,
     /// Distance of the apple's centre from the camera, metres.
     pub distance: f64,
     /// Leaves at the stalk.
@@ -70,14 +74,15 @@ impl Repeat {
     pub fn new(density: Density) -> Self {
         Self {
             apple_radius: 0.041_67,
-            branch_radius: 0.005,
+            branch_radius: 0.0025,
+            branch_length: 0.17,
             distance: 0.8,
             leaves: density.leaves(),
-            leaf_sway: 0.35,
+            leaf_sway: 1.2,
             body_sway: 0.001,
-            dropout: 0.08,
-            dropout_patch_px: 5,
-            box_shift_px: 3.0,
+            dropout: 0.15,
+            dropout_patch_px: 7,
+            box_shift_px: 2.5,
         }
     }
 
@@ -135,7 +140,7 @@ impl Repeat {
             curve: Curve::through(
                 foot,
                 Vector3::new(1.0, 0.05, 0.12),
-                0.5,
+                self.branch_length,
                 Vector3::y() * 0.01,
             ),
             start_radius: 1.1 * self.branch_radius,
@@ -206,7 +211,7 @@ mod tests {
         let repeat = Repeat::new(Density::Paper);
         let (a, b) = (repeat.plant(), repeat.plant());
         assert_eq!(a.1, b.1);
-        assert_eq!(a.1.len(), 5);
+        assert_eq!(a.1.len(), 7);
         let leaf = a.1[0];
         let moved = turned(leaf, &Vector3::new(0.0, 0.2, 0.0));
         assert_eq!(moved.base, leaf.base);

@@ -16,19 +16,15 @@ impl Scene {
     /// Writes the frame's files and `truth.json` into `folder`, whole or not at all.
     ///
     /// The files come together in a folder beside it, which then takes its
-    /// name. A scene that was there before is replaced; other files are not.
+    /// name. A scene that was there before is replaced; a folder with any other file is refused.
     ///
     /// # Errors
     ///
-    /// [`SceneError::Occupied`] where the folder holds files and no
-    /// `truth.json`, [`SceneError::Io`] and [`SceneError::Frame`] where a file cannot be written.
+    /// [`SceneError::Occupied`] where the folder holds files that no scene has, [`SceneError::Io`] and [`SceneError::Frame`] where a file cannot be written.
     pub fn write(&self, folder: impl AsRef<Path>) -> Result<(), SceneError> {
         let folder = folder.as_ref();
-        let occupied = is_occupied(folder)?;
-        if occupied && !folder.join(TRUTH_FILE).is_file() {
-            return Err(SceneError::Occupied {
-                path: folder.into(),
-            });
+        if let Some(path) = foreign_entry(folder)? {
+            return Err(SceneError::Occupied { path });
         }
         let part = beside(folder);
         let result = self
@@ -48,12 +44,35 @@ impl Scene {
     }
 }
 
-fn is_occupied(folder: &Path) -> Result<bool, SceneError> {
-    match std::fs::read_dir(folder) {
-        Ok(mut entries) => Ok(entries.next().is_some()),
-        Err(e) if e.kind() == std::io::ErrorKind::NotFound => Ok(false),
-        Err(e) => Err(SceneError::io(folder, e)),
+/// The files of a scene's folder.
+const FILES: [&str; 5] = [
+    "color.png",
+    "depth.png",
+    "camera.json",
+    "boxes.xml",
+    TRUTH_FILE,
+];
+
+/// Something in the folder that no scene puts there: in a folder without a truth, anything.
+fn foreign_entry(folder: &Path) -> Result<Option<PathBuf>, SceneError> {
+    let entries = match std::fs::read_dir(folder) {
+        Ok(entries) => entries,
+        Err(e) if e.kind() == std::io::ErrorKind::NotFound => return Ok(None),
+        Err(e) => return Err(SceneError::io(folder, e)),
+    };
+    let is_scene = folder.join(TRUTH_FILE).is_file();
+    for entry in entries {
+        let entry = entry.map_err(|e| SceneError::io(folder, e))?;
+        let ours = is_scene
+            && entry
+                .file_name()
+                .to_str()
+                .is_some_and(|name| FILES.contains(&name));
+        if !ours || entry.path().is_dir() {
+            return Ok(Some(entry.path()));
+        }
     }
+    Ok(None)
 }
 
 /// A hidden sibling: on the same file system, so that it can be renamed.

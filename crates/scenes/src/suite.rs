@@ -106,7 +106,7 @@ impl Suite {
             Self::Lab15 => "the paper's 15 lab orientations",
             Self::Lab150 => "the 15 lab orientations, ten noise draws each",
             Self::Repeat(Density::None) => "474 repeats of one apple without leaves",
-            Self::Repeat(Density::Light) => "474 repeats of one apple with two leaves",
+            Self::Repeat(Density::Light) => "474 repeats of one apple with three leaves",
             Self::Repeat(Density::Paper) => "474 repeats of one apple with leaves as in the paper",
             Self::Repeat(Density::Dense) => "474 repeats of one apple among many leaves",
             Self::Orchard => "200 random orchard scenes, the paper's camera",

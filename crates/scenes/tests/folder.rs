@@ -40,6 +40,12 @@ fn a_scene_replaces_a_scene_and_nothing_else() {
     small_scene(1).write(&folder).unwrap();
     assert_eq!(Truth::read(&folder).unwrap().seed, Some(1));
 
+    std::fs::write(folder.join("notes.txt"), "mine").unwrap();
+    let refused = small_scene(2).write(&folder);
+    assert!(matches!(refused, Err(SceneError::Occupied { path }) if path.ends_with("notes.txt")));
+    assert!(folder.join("notes.txt").is_file());
+    std::fs::remove_file(folder.join("notes.txt")).unwrap();
+
     std::fs::remove_file(folder.join(TRUTH_FILE)).unwrap();
     let refused = small_scene(2).write(&folder);
     assert!(matches!(refused, Err(SceneError::Occupied { .. })));

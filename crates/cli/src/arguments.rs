@@ -1,0 +1,111 @@
+use crate::terminal::Terminal;
+use crate::{completions, config, convert, evaluate, inspect, pick, scenes};
+use clap::{ArgAction, ColorChoice, Parser, Subcommand, value_parser};
+
+const EXAMPLES: &str = "\
+Examples:
+  pomona scenes demo --out scenes                 write a synthetic frame
+  pomona pick scenes/orchard-demo --out out       how to pick its apples
+  pomona pick frames/* --out out --json           several frames, as JSON
+  pomona inspect frames/a out/picks.json          what files hold
+  pomona convert frames/a cloud.ply               a frame as a point cloud
+
+Bad input ends with exit code 2 and a message that names the file; nothing half-written stays.";
+
+/// Heading of the options that every command takes.
+const EVERYWHERE: &str = "For every command";
+
+/// Which way to pick each apple of an RGB-D frame.
+#[derive(Debug, Parser)]
+#[command(name = "pomona", version, after_help = EXAMPLES)]
+pub(crate) struct Arguments {
+    /// Log to standard error: -v what is done, -vv details.
+    #[arg(short, long, action = ArgAction::Count, global = true, help_heading = EVERYWHERE)]
+    verbose: u8,
+    /// Threads to work with; the answers do not depend on it. Default: as many as processors.
+    #[arg(long, value_name = "N", global = true, help_heading = EVERYWHERE, value_parser = value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
+    /// When to use colours; `auto` respects `NO_COLOR`.
+    #[arg(long, value_name = "WHEN", global = true, help_heading = EVERYWHERE, value_enum, default_value_t)]
+    pub(crate) color: ColorChoice,
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Find the picking direction of each apple.
+    Pick(pick::PickArguments),
+    /// Write synthetic frames with the truth beside them.
+    Scenes(scenes::ScenesArguments),
+    /// Measure methods against truth, or fitted radii against calipers.
+    Evaluate(evaluate::EvaluateArguments),
+    /// Convert between cloud formats, or a frame to a cloud.
+    Convert(convert::ConvertArguments),
+    /// Say what frames, clouds, images and results hold.
+    Inspect(inspect::InspectArguments),
+    /// Print the settings as commented TOML.
+    Config(config::ConfigArguments),
+    /// Print completions for a shell.
+    Completions(completions::CompletionsArguments),
+}
+
+impl Arguments {
+    pub(crate) fn run(&self, terminal: Terminal) -> anyhow::Result<()> {
+        self.start_log(terminal);
+        if let Some(threads) = self.threads {
+            rayon::ThreadPoolBuilder::new()
+                .num_threads(usize::from(threads))
+                .build_global()
+                .map_err(|e| anyhow::anyhow!("--threads {threads}: {e}; ask for fewer"))?;
+        }
+        match &self.command {
+            Command::Pick(arguments) => pick::run(arguments, terminal),
+            Command::Scenes(arguments) => scenes::run(arguments),
+            Command::Evaluate(arguments) => evaluate::run(arguments, terminal),
+            Command::Convert(arguments) => convert::run(arguments),
+            Command::Inspect(arguments) => inspect::run(arguments, terminal),
+            Command::Config(arguments) => config::run(arguments),
+            Command::Completions(arguments) => completions::run(arguments),
+        }
+    }
+
+    fn start_log(&self, terminal: Terminal) {
+        let level = match self.verbose {
+            0 => log::LevelFilter::Warn,
+            1 => log::LevelFilter::Info,
+            2 => log::LevelFilter::Debug,
+            _ => log::LevelFilter::Trace,
+        };
+        let style = if terminal.colors_messages() {
+            env_logger::WriteStyle::Always
+        } else {
+            env_logger::WriteStyle::Never
+        };
+        env_logger::Builder::new()
+            .filter_level(level)
+            .write_style(style)
+            .format_target(false)
+            .init();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        Arguments::command().debug_assert();
+    }
+
+    #[test]
+    fn every_command_has_examples() {
+        for command in Arguments::command().get_subcommands() {
+            let help = command.get_after_help().map(ToString::to_string);
+            let name = command.get_name();
+            assert!(help.is_some_and(|h| h.contains("Example")), "{name}");
+        }
+    }
+}

@@ -1,0 +1,258 @@
+//! `pomona evaluate`: methods against truth, and fitted radii against calipers.
+
+mod text;
+
+use crate::output_folder::{OutputFolder, PICKS, write_text};
+use crate::progress;
+use crate::terminal::{self, Terminal};
+use anyhow::bail;
+use clap::Args;
+use clap::builder::PossibleValuesParser;
+use pomona::{Config, Method, Picker};
+use pomona_cloud::Frame;
+use pomona_evaluate::{
+    CALIPER_SCHEMA, PickMethod, SCHEMA, Subject, apples_csv, caliper_page, evaluate,
+    measure_calipers, read_calipers, report_page,
+};
+use serde::de::IntoDeserializer;
+use serde::de::value::{Error, StrDeserializer};
+use serde::{Deserialize, Serialize};
+use std::path::{Path, PathBuf};
+
+const EXAMPLES: &str = "\
+Examples:
+  pomona evaluate lab150 --out out                    the paper's fifteen orientations, ten draws each
+  pomona evaluate lab15 frames/a --out out            suites and frames with truth.json
+  pomona evaluate orchard --count 50 --json --out out | jq '.results[].angle.error.mean'
+  pomona evaluate --calipers calipers.csv frames/a frames/b --out out
+
+Writes evaluation.json, apples.csv and report.html into DIR; with --calipers calipers.json and report.html.
+A frame without truth can be evaluated with --calipers only: a CSV with the columns box_name and diameter_mm.";
+
+/// The results, by their names in the folder.
+const EVALUATION: &str = "evaluation.json";
+const CALIPERS: &str = "calipers.json";
+const APPLES: &str = "apples.csv";
+const REPORT: &str = "report.html";
+
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct EvaluateArguments {
+    /// Suites (see `pomona scenes --list`), frames with truth.json, or folders of such frames; with
+    /// --calipers any frames.
+    #[arg(required = true, value_name = "SUITE|FRAME")]
+    subjects: Vec<String>,
+    /// Where to write. Our own files are replaced.
+    #[arg(short, long, value_name = "DIR")]
+    out: PathBuf,
+    /// A method; may be repeated, to set methods side by side. Default: that of the settings.
+    #[arg(long = "method", value_name = "NAME", value_parser = PossibleValuesParser::new([Method::Paper.name()]))]
+    methods: Vec<String>,
+    /// Settings from a TOML file; what it leaves out keeps its default (see `pomona config`).
+    #[arg(long, value_name = "FILE")]
+    config: Option<PathBuf>,
+    /// Seed of the methods; scenes have seeds of their own.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    seed: u64,
+    /// Only so many frames of each suite, from the first.
+    #[arg(long, value_name = "N")]
+    count: Option<usize>,
+    /// Measured diameters (CSV), by box name: compares fitted radii with them, and the centres of each
+    /// pair of frames with each other.
+    #[arg(long, value_name = "FILE", conflicts_with = "count")]
+    calipers: Option<PathBuf>,
+    /// Print the result to standard output as JSON in place of the table.
+    #[arg(long)]
+    json: bool,
+}
+
+pub(crate) fn run(arguments: &EvaluateArguments, terminal: Terminal) -> anyhow::Result<()> {
+    let pickers = pickers(arguments)?;
+    let methods: Vec<&dyn PickMethod> = pickers.iter().map(|p| p as &dyn PickMethod).collect();
+    match &arguments.calipers {
+        Some(calipers) => against_calipers(arguments, calipers, &methods, terminal),
+        None => against_truth(arguments, &methods, terminal),
+    }
+}
+
+fn pickers(arguments: &EvaluateArguments) -> anyhow::Result<Vec<Picker>> {
+    let config = match &arguments.config {
+        Some(path) => Config::read(path)?,
+        None => Config::default(),
+    };
+    if arguments.methods.is_empty() {
+        return Ok(vec![Picker::new(config)?]);
+    }
+    let mut pickers: Vec<Picker> = Vec::new();
+    for name in &arguments.methods {
+        let deserializer: StrDeserializer<'_, Error> = name.as_str().into_deserializer();
+        let method = Method::deserialize(deserializer)?;
+        if pickers.iter().any(|p| p.config().method == method) {
+            bail!("--method {name} stands twice; give each method once");
+        }
+        pickers.push(Picker::new(Config {
+            method,
+            ..config.clone()
+        })?);
+    }
+    Ok(pickers)
+}
+
+fn against_truth(
+    arguments: &EvaluateArguments,
+    methods: &[&dyn PickMethod],
+    terminal: Terminal,
+) -> anyhow::Result<()> {
+    refuse_foreign(&arguments.out, EVALUATION, SCHEMA)?;
+    let mut subjects: Vec<Subject> = Vec::new();
+    for name in &arguments.subjects {
+        for subject in Subject::named(name, arguments.count)? {
+            let twice =
+                |other: &Subject| (&other.suite, &other.name) == (&subject.suite, &subject.name);
+            if subjects.iter().any(twice) {
+                bail!(
+                    "{name}: {} of {} stands twice; give each suite and folder once",
+                    subject.name,
+                    subject.suite
+                );
+            }
+            subjects.push(subject);
+        }
+    }
+    let bar = progress::bar(subjects.len());
+    let evaluation = evaluate(&subjects, methods, arguments.seed, &|| bar.inc(1))?;
+    bar.finish_and_clear();
+    let output = OutputFolder::new(&arguments.out)?;
+    write_text(&output, EVALUATION, &json(&evaluation)?)?;
+    write_text(&output, APPLES, &apples_csv(&evaluation)?)?;
+    write_text(&output, REPORT, &report_page(&evaluation)?)?;
+    output.publish()?;
+    say(
+        arguments,
+        &evaluation,
+        &text::evaluation(&evaluation, terminal),
+    )
+}
+
+fn against_calipers(
+    arguments: &EvaluateArguments,
+    calipers: &Path,
+    methods: &[&dyn PickMethod],
+    terminal: Terminal,
+) -> anyhow::Result<()> {
+    refuse_foreign(&arguments.out, CALIPERS, CALIPER_SCHEMA)?;
+    let calipers = read_calipers(calipers)?;
+    let frames: Vec<Frame> = arguments
+        .subjects
+        .iter()
+        .map(Frame::read)
+        .collect::<Result<_, _>>()?;
+    let report = measure_calipers(&frames, &calipers, methods, arguments.seed)?;
+    let output = OutputFolder::new(&arguments.out)?;
+    write_text(&output, CALIPERS, &json(&report)?)?;
+    write_text(&output, REPORT, &caliper_page(&report)?)?;
+    output.publish()?;
+    say(arguments, &report, &text::calipers(&report, terminal))
+}
+
+fn json(result: &impl Serialize) -> serde_json::Result<String> {
+    Ok(serde_json::to_string_pretty(result)? + "\n")
+}
+
+fn say(arguments: &EvaluateArguments, result: &impl Serialize, text: &str) -> anyhow::Result<()> {
+    if arguments.json {
+        return terminal::print(&json(result)?);
+    }
+    let place = arguments.out.display();
+    terminal::print(&format!("{text}\nwritten to {place}\n"))
+}
+
+/// Refuses a folder in which our files would replace somebody else's.
+fn refuse_foreign(folder: &Path, main: &str, schema: &str) -> anyhow::Result<()> {
+    #[derive(Deserialize)]
+    struct Head {
+        schema: String,
+    }
+    if folder.join(PICKS).exists() {
+        bail!(
+            "{}: holds the answers of `pomona pick`; name another folder by --out",
+            folder.display()
+        );
+    }
+    let path = folder.join(main);
+    let head = std::fs::read(&path)
+        .ok()
+        .and_then(|bytes| serde_json::from_slice::<Head>(&bytes).ok());
+    if head.is_some_and(|head| head.schema == schema) {
+        return Ok(());
+    }
+    for name in [EVALUATION, CALIPERS, APPLES, REPORT] {
+        if folder.join(name).exists() {
+            bail!(
+                "{}: would be replaced, and no {main} says that this program wrote it; name another folder by --out",
+                folder.join(name).display()
+            );
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn arguments(methods: &[&str]) -> EvaluateArguments {
+        EvaluateArguments {
+            subjects: vec!["lab15".to_owned()],
+            out: PathBuf::new(),
+            methods: methods.iter().map(ToString::to_string).collect(),
+            config: None,
+            seed: 0,
+            count: Some(1),
+            calipers: None,
+            json: false,
+        }
+    }
+
+    #[test]
+    fn each_method_once_and_by_its_name() {
+        assert_eq!(pickers(&arguments(&[])).unwrap().len(), 1);
+        assert_eq!(pickers(&arguments(&["paper"])).unwrap()[0].name(), "paper");
+        let twice = pickers(&arguments(&["paper", "paper"])).unwrap_err();
+        assert!(twice.to_string().contains("twice"));
+    }
+
+    #[test]
+    fn a_run_writes_its_files_and_may_be_repeated() {
+        let dir = tempfile::tempdir().unwrap();
+        let mut arguments = arguments(&["paper"]);
+        arguments.out = dir.path().join("out");
+        arguments.json = true;
+        let terminal = Terminal::new(clap::ColorChoice::Never);
+        run(&arguments, terminal).unwrap();
+        run(&arguments, terminal).unwrap();
+        for name in [EVALUATION, APPLES, REPORT] {
+            assert!(arguments.out.join(name).is_file(), "{name}");
+        }
+        arguments.out = dir.path().join("picks");
+        std::fs::create_dir(&arguments.out).unwrap();
+        std::fs::write(arguments.out.join(PICKS), "{}").unwrap();
+        let refused = run(&arguments, terminal).unwrap_err().to_string();
+        assert!(
+            refused.contains("picks") && refused.contains("--out"),
+            "{refused}"
+        );
+    }
+
+    #[test]
+    fn what_is_no_subject_is_refused_with_the_suites() {
+        let mut arguments = arguments(&[]);
+        arguments.subjects = vec!["lab16".to_owned()];
+        let terminal = Terminal::new(clap::ColorChoice::Never);
+        let refused = run(&arguments, terminal).unwrap_err().to_string();
+        assert!(
+            refused.contains("lab16") && refused.contains("lab150"),
+            "{refused}"
+        );
+    }
+}

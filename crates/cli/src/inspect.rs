@@ -1,0 +1,106 @@
+mod cloud;
+mod document;
+mod facts;
+mod folder;
+mod image;
+
+use crate::terminal::{self, Terminal};
+use anyhow::{anyhow, bail};
+use clap::Args;
+use facts::Facts;
+use pomona_cloud::CloudFormat;
+use std::fs::File;
+use std::io::Read;
+use std::path::{Path, PathBuf};
+
+const EXAMPLES: &str = "\
+Examples:
+  pomona inspect frames/a                    size, camera, depth and boxes of a frame
+  pomona inspect cloud.pcd cloud.ply         points, bounds, colours
+  pomona inspect out/picks.json --json       as JSON, in metres
+
+Known are frames' folders, clouds (PCD, PLY, XYZ), images, cameras, box files, transforms, settings, \
+picks.json and truth.json.";
+
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct InspectArguments {
+    /// Files and folders.
+    #[arg(required = true, value_name = "PATH")]
+    paths: Vec<PathBuf>,
+    /// Print JSON: one object for one path, an array for several; lengths in metres.
+    #[arg(long)]
+    json: bool,
+}
+
+pub(crate) fn run(arguments: &InspectArguments, terminal: Terminal) -> anyhow::Result<()> {
+    let count = arguments.paths.len();
+    let mut known: Vec<Facts> = Vec::new();
+    for path in &arguments.paths {
+        match facts_of(path) {
+            Ok(facts) => {
+                if !arguments.json {
+                    let separator = if known.is_empty() { "" } else { "\n" };
+                    terminal::print(&(separator.to_owned() + &facts.text(terminal)))?;
+                }
+                known.push(facts);
+            }
+            Err(error) if count == 1 => return Err(error),
+            Err(error) => terminal.error(&error),
+        }
+    }
+    if arguments.json {
+        let json = match &*known {
+            [facts] if count == 1 => serde_json::to_string_pretty(facts)?,
+            facts => serde_json::to_string_pretty(facts)?,
+        };
+        terminal::print(&(json + "\n"))?;
+    }
+    if known.len() < count {
+        bail!(
+            "{} of {count} paths could not be read, for the reasons above",
+            count - known.len()
+        );
+    }
+    Ok(())
+}
+
+fn facts_of(path: &Path) -> anyhow::Result<Facts> {
+    if path.is_dir() {
+        return folder::facts(path);
+    }
+    let start = first_bytes(path)?;
+    let extension = path
+        .extension()
+        .unwrap_or_default()
+        .to_string_lossy()
+        .to_ascii_lowercase();
+    if start.starts_with(b"\x89PNG") || start.starts_with(b"\xff\xd8") {
+        return image::facts(path, &start);
+    }
+    if document::is_box_file(path, &start) {
+        return document::boxes(path);
+    }
+    match extension.as_str() {
+        "json" => document::json(path),
+        "yaml" | "yml" => document::camera(path),
+        "toml" => document::settings(path),
+        _ if cloud::is_cloud(&start) || CloudFormat::from_path(path).is_some() => {
+            cloud::facts(path)
+        }
+        _ => bail!(
+            "{}: not a file that this program knows; it knows frames' folders, PCD, PLY, XYZ, PNG, JPEG, and \
+             JSON, YAML, TOML and XML files of its own",
+            path.display()
+        ),
+    }
+}
+
+/// Enough of a file to tell what it is.
+fn first_bytes(path: &Path) -> anyhow::Result<Vec<u8>> {
+    let mut start = Vec::new();
+    File::open(path)
+        .and_then(|file| file.take(64).read_to_end(&mut start))
+        .map_err(|e| anyhow!("{}: cannot be read: {e}; check the path", path.display()))?;
+    Ok(start)
+}

@@ -1,0 +1,143 @@
+use super::facts::{Facts, range};
+use super::folder::add_camera;
+use crate::summary::summary;
+use anyhow::{anyhow, bail};
+use pomona::{Config, Record, RobotFromCamera};
+use pomona_cloud::{Camera, ColorImage, read_boxes};
+use pomona_scenes::{TRUTH_SCHEMA, Truth};
+use serde_json::Value;
+use std::path::Path;
+
+/// The schema of a transform's file.
+const TRANSFORM_SCHEMA: &str = "pomona.transform/1";
+
+/// Whether a file that begins so holds boxes: XML, or a text named so.
+pub(super) fn is_box_file(path: &Path, start: &[u8]) -> bool {
+    let is_xml = start.trim_ascii_start().starts_with(b"<");
+    is_xml || path.file_name().is_some_and(|name| name == "boxes.txt")
+}
+
+/// A JSON file, by its `schema`, or else by its fields.
+pub(super) fn json(path: &Path) -> anyhow::Result<Facts> {
+    let bytes =
+        std::fs::read(path).map_err(|e| anyhow!("{}: {e}; check the path", path.display()))?;
+    let refused = |e: serde_json::Error| anyhow!("{}: {e}; write the file again", path.display());
+    let value: Value = serde_json::from_slice(&bytes).map_err(refused)?;
+    match value.get("schema").map(|s| s.as_str().unwrap_or_default()) {
+        Some(pomona::SCHEMA) => Ok(record(
+            path,
+            &serde_json::from_slice(&bytes).map_err(refused)?,
+        )),
+        Some(TRUTH_SCHEMA) => Ok(truth(path, &Truth::read(path)?)),
+        Some(TRANSFORM_SCHEMA) => Ok(transform(path, &RobotFromCamera::read(path)?)),
+        Some(other) => bail!(
+            "{}: its schema is `{other}`; known are {}, {TRUTH_SCHEMA} and {TRANSFORM_SCHEMA}",
+            path.display(),
+            pomona::SCHEMA
+        ),
+        None if value.is_array() || value.get("annotations").is_some() => boxes(path),
+        None => camera(path),
+    }
+}
+
+fn record(path: &Path, record: &Record) -> Facts {
+    let mut facts = Facts::new(path, "picks of a frame");
+    facts.say("schema", record.schema.clone());
+    facts.say("frame", record.frame.id.clone());
+    facts.say("frame_id", record.frame.frame_id.clone());
+    facts.say("method", record.method.clone());
+    facts.say("seed", record.seed);
+    facts.add(
+        "apples",
+        record.picks.len(),
+        summary(std::slice::from_ref(record)),
+    );
+    add_radii(
+        &mut facts,
+        record
+            .picks
+            .iter()
+            .filter_map(|p| Some(p.apple.as_ref()?.radius)),
+    );
+    facts
+}
+
+fn truth(path: &Path, truth: &Truth) -> Facts {
+    let mut facts = Facts::new(path, "truth of a synthetic frame");
+    facts.say("schema", truth.schema.clone());
+    facts.say("apples", truth.apples.len());
+    let with_branch = truth.apples.iter().filter(|a| a.branch.is_some()).count();
+    facts.say("with_branch", with_branch);
+    add_radii(&mut facts, truth.apples.iter().map(|a| a.radius));
+    facts
+}
+
+fn add_radii(facts: &mut Facts, radii: impl Iterator<Item = f64>) {
+    if let Some((low, high)) = range(radii) {
+        let text = format!("{:.1} to {:.1} mm", low * 1000.0, high * 1000.0);
+        facts.add("radius", vec![low, high], text);
+    }
+}
+
+fn transform(path: &Path, named: &RobotFromCamera) -> Facts {
+    let mut facts = Facts::new(path, "transform");
+    facts.say("to", named.to.clone());
+    facts.say("from", named.from.clone());
+    let [x, y, z] = named.transform.translation_m().into();
+    let text = format!("{:.1} {:.1} {:.1} mm", x * 1000.0, y * 1000.0, z * 1000.0);
+    facts.add("translation", vec![x, y, z], text);
+    let quaternion = named.transform.quaternion_xyzw();
+    let text = quaternion.map(|c| format!("{c:.6}")).join(" ");
+    facts.add("quaternion_xyzw", quaternion.to_vec(), text);
+    facts
+}
+
+/// A camera, as JSON or YAML.
+pub(super) fn camera(path: &Path) -> anyhow::Result<Facts> {
+    let camera = Camera::read(path)?;
+    let mut facts = Facts::new(path, "camera");
+    facts.size(camera.width, camera.height);
+    add_camera(&mut facts, &camera);
+    Ok(facts)
+}
+
+/// Settings, as TOML.
+pub(super) fn settings(path: &Path) -> anyhow::Result<Facts> {
+    let config = Config::read(path)?;
+    let mut facts = Facts::new(path, "settings");
+    facts.say("method", config.method.name());
+    let values = serde_json::to_value(&config)?;
+    let unchanged = config == Config::default();
+    facts.add(
+        "settings",
+        values,
+        if unchanged {
+            "all at their defaults"
+        } else {
+            "see `pomona config --config`"
+        },
+    );
+    Ok(facts)
+}
+
+/// Boxes, whose numbers mean something only in their image: the one beside them.
+pub(super) fn boxes(path: &Path) -> anyhow::Result<Facts> {
+    let beside = ["color.png", "color.jpg", "color.jpeg"].map(|name| path.with_file_name(name));
+    let Some(image) = beside.iter().find(|image| image.exists()) else {
+        bail!(
+            "{}: boxes belong to an image, and no color.png or color.jpg lies beside them; put them into their frame's folder",
+            path.display()
+        );
+    };
+    let image = ColorImage::read(image)?;
+    let boxes = read_boxes(path, image.width, image.height)?;
+    let mut facts = Facts::new(path, "boxes");
+    facts.say("boxes", boxes.len());
+    for (name, side) in [("width_px", 0), ("height_px", 1)] {
+        let sides = boxes.iter().map(|b| [b.width(), b.height()][side]);
+        if let Some((low, high)) = range(sides) {
+            facts.add(name, vec![low, high], format!("{low:.0} to {high:.0} px"));
+        }
+    }
+    Ok(facts)
+}

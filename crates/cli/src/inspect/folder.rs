@@ -1,0 +1,104 @@
+use super::document;
+use super::facts::Facts;
+use super::image::add_fill;
+use crate::output_folder::PICKS;
+use crate::summary::plural;
+use pomona_cloud::{Camera, DepthPoints, Frame, read_tum};
+use pomona_scenes::{TRUTH_FILE, Truth};
+use std::path::Path;
+
+pub(super) fn facts(path: &Path) -> anyhow::Result<Facts> {
+    if path.join("rgb.txt").is_file() && path.join("depth.txt").is_file() {
+        let mut facts = Facts::new(path, "TUM RGB-D folder");
+        facts.say("frames", read_tum(path)?.len());
+        return Ok(facts);
+    }
+    if path.join(PICKS).is_file() && !path.join("depth.png").exists() {
+        return document::json(&path.join(PICKS));
+    }
+    frame(path)
+}
+
+fn frame(path: &Path) -> anyhow::Result<Facts> {
+    let frame = Frame::read(path)?;
+    let mut facts = Facts::new(path, "RGB-D frame");
+    facts.say("id", frame.id.clone());
+    facts.size(frame.color.width, frame.color.height);
+    add_camera(&mut facts, &frame.camera);
+    add_fill(&mut facts, &frame.depth);
+    add_depth_range(&mut facts, &frame);
+    match &frame.boxes {
+        None => facts.add(
+            "boxes",
+            serde_json::Value::Null,
+            "none; `pomona pick` needs --boxes FILE",
+        ),
+        Some(boxes) => {
+            let mut points = DepthPoints::new();
+            let mut with_depth = 0;
+            for pixel_box in boxes {
+                let window = pixel_box.window(frame.depth.width, frame.depth.height)?;
+                points.fill(&frame.depth, &frame.camera, window)?;
+                with_depth += usize::from(!points.is_empty());
+            }
+            facts.say("boxes", boxes.len());
+            facts.say("boxes_with_depth", with_depth);
+        }
+    }
+    if path.join(TRUTH_FILE).is_file() {
+        let truth = Truth::read(path)?;
+        facts.add(
+            "truth",
+            truth.apples.len(),
+            plural(truth.apples.len(), "apple"),
+        );
+    }
+    Ok(facts)
+}
+
+/// Adds what a camera file holds but the image's size.
+pub(super) fn add_camera(facts: &mut Facts, camera: &Camera) {
+    let Camera { fx, fy, cx, cy, .. } = *camera;
+    facts.add("focal_px", vec![fx, fy], format!("{fx} x {fy} px"));
+    facts.add(
+        "principal_point_px",
+        vec![cx, cy],
+        format!("({cx}, {cy}) px"),
+    );
+    facts.add(
+        "depth_scale",
+        camera.depth_scale,
+        format!("{} mm per unit", camera.depth_scale * 1000.0),
+    );
+    facts.say("frame_id", camera.frame_id.clone());
+    match &camera.distortion {
+        None => facts.add("distortion", serde_json::Value::Null, "none"),
+        Some(d) => facts.add(
+            "distortion",
+            d.model.clone(),
+            format!("{} {:?}", d.model, d.coefficients),
+        ),
+    }
+}
+
+fn add_depth_range(facts: &mut Facts, frame: &Frame) {
+    let mut readings: Vec<u16> = frame
+        .depth
+        .readings
+        .iter()
+        .copied()
+        .filter(|&r| r != 0)
+        .collect();
+    readings.sort_unstable();
+    let z = |at: usize| f64::from(readings[at]) * frame.camera.depth_scale;
+    if let Some(last) = readings.len().checked_sub(1) {
+        let (low, median, high) = (z(0), z(last / 2), z(last));
+        let text = format!(
+            "{:.0} to {:.0} mm, median {:.0} mm",
+            low * 1000.0,
+            high * 1000.0,
+            median * 1000.0
+        );
+        facts.add("z", vec![low, median, high], text);
+    }
+}

@@ -1,0 +1,247 @@
+use crate::apple_cloud::{AppleClouds, CloudChoice};
+use crate::output_folder::{OutputFolder, PICKS, PICTURE, cloud_name, refuse_foreign, write_text};
+use crate::settings::SettingsArguments;
+use crate::summary::{plural, summary};
+use crate::table::table;
+use crate::terminal::{self, Terminal};
+use crate::{picture, progress};
+use anyhow::{anyhow, bail};
+use clap::Args;
+use pomona::{Outcome, Picker, Record, RobotFromCamera};
+use pomona_cloud::{Frame, read_boxes};
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+const EXAMPLES: &str = "\
+Examples:
+  pomona pick frames/a --out out                      out/picks.json, picture.png, apple-N.ply
+  pomona pick frames/a frames/b --out out             out/a/... and out/b/...
+  pomona pick frames/a --boxes detections.json --out out
+  pomona pick frames/a --transform robot_from_camera.json --out out
+  pomona pick frames/a --radius-max-mm 60 --set paper.shell_outer=2.5 --out out
+  pomona pick frames/* --out out --json | jq '.[].picks[].direction'
+
+A frame is a folder with color.png (or .jpg), depth.png (16 bit, registered to colour), camera.json and boxes \
+(boxes.xml VOC, boxes.json COCO or boxes.txt YOLO).
+
+In the table, `angle` is that of the direction in the picture (0 right, 90 up) and `away` that out of the image \
+plane (positive away from the camera).
+
+An apple without an answer is refused with its reason, and the run goes on. Exit code 0: every frame was \
+processed. 2: bad input; frames that failed have written nothing.";
+
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct PickArguments {
+    /// Folders of frames.
+    #[arg(required = true, value_name = "FRAME")]
+    frames: Vec<PathBuf>,
+    /// Where to write; several frames get a folder each in there. Our own files are replaced.
+    #[arg(short, long, value_name = "DIR")]
+    out: PathBuf,
+    /// Boxes of the apples (VOC, COCO or YOLO) in place of the frame's own; for one frame.
+    #[arg(long, value_name = "FILE")]
+    boxes: Option<PathBuf>,
+    /// Seed of the random numbers.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    seed: u64,
+    /// Transform from the camera's to the robot's frame; adds the answers in the robot's frame.
+    #[arg(long, value_name = "FILE")]
+    transform: Option<PathBuf>,
+    /// Print the record to standard output in place of the table: one JSON object for one frame, an
+    /// array for several.
+    #[arg(long)]
+    json: bool,
+    /// Leave picture.png out.
+    #[arg(long)]
+    no_picture: bool,
+    /// Which apples get a coloured cloud apple-N.ply: best (the picked apple with most surface
+    /// points), all, none, or numbers such as 0,3.
+    #[arg(long, value_name = "WHICH", default_value = "best")]
+    clouds: CloudChoice,
+    #[command(flatten)]
+    settings: SettingsArguments,
+}
+
+pub(crate) fn run(arguments: &PickArguments, terminal: Terminal) -> anyhow::Result<()> {
+    let config = arguments.settings.config()?;
+    log::debug!("{config:?}");
+    let run = Run {
+        picker: Picker::new(config)?,
+        transform: arguments
+            .transform
+            .as_ref()
+            .map(RobotFromCamera::read)
+            .transpose()?,
+        arguments,
+        terminal,
+    };
+    let jobs = jobs(arguments)?;
+    let bar = progress::bar(jobs.len());
+    let mut records = Vec::new();
+    for job in &jobs {
+        bar.set_message(job.frame.display().to_string());
+        match run.frame(job) {
+            Ok(record) => {
+                if !arguments.json {
+                    let separator = if records.is_empty() { "" } else { "\n" };
+                    let text = separator.to_owned() + &table(&record, terminal);
+                    bar.suspend(|| terminal::print(&text))?;
+                }
+                records.push(record);
+            }
+            Err(error) if jobs.len() == 1 => return Err(error),
+            Err(error) => bar.suspend(|| terminal.error(&error)),
+        }
+        bar.inc(1);
+    }
+    bar.finish_and_clear();
+    if arguments.json {
+        terminal::print(&(json(&records, jobs.len() == 1)? + "\n"))?;
+    } else if !records.is_empty() {
+        let place = arguments.out.display();
+        terminal::print(&format!("\n{}; written to {place}\n", summary(&records)))?;
+    }
+    let failed = jobs.len() - records.len();
+    if failed > 0 {
+        bail!(
+            "{} of {} failed, for the reasons above",
+            failed,
+            plural(jobs.len(), "frame")
+        );
+    }
+    Ok(())
+}
+
+fn json(records: &[Record], one: bool) -> serde_json::Result<String> {
+    match records {
+        [record] if one => serde_json::to_string_pretty(record),
+        records => serde_json::to_string_pretty(records),
+    }
+}
+
+/// One frame's folder and that of its answers.
+struct Job {
+    frame: PathBuf,
+    out: PathBuf,
+}
+
+fn jobs(arguments: &PickArguments) -> anyhow::Result<Vec<Job>> {
+    let jobs = if let [frame] = &*arguments.frames {
+        vec![Job {
+            frame: frame.clone(),
+            out: arguments.out.clone(),
+        }]
+    } else {
+        if arguments.boxes.is_some() {
+            bail!(
+                "--boxes holds the boxes of one frame, but {} frames are given; put boxes into each frame's folder",
+                arguments.frames.len()
+            );
+        }
+        let mut seen: HashMap<PathBuf, &Path> = HashMap::new();
+        let mut jobs = Vec::new();
+        for frame in &arguments.frames {
+            let id = folder_name(frame)?;
+            if let Some(other) = seen.insert(id.clone(), frame) {
+                bail!(
+                    "{} and {}: both would be written to {}; rename one of the folders, or give each a run of its own",
+                    other.display(),
+                    frame.display(),
+                    arguments.out.join(id).display()
+                );
+            }
+            jobs.push(Job {
+                frame: frame.clone(),
+                out: arguments.out.join(id),
+            });
+        }
+        jobs
+    };
+    jobs.iter().try_for_each(|job| refuse_foreign(&job.out))?;
+    Ok(jobs)
+}
+
+/// The name of a frame's folder, also where the path is `.` or ends in `..`.
+fn folder_name(frame: &Path) -> anyhow::Result<PathBuf> {
+    if let Some(name) = frame.file_name() {
+        return Ok(name.into());
+    }
+    let full = frame
+        .canonicalize()
+        .map_err(|e| anyhow!("{}: {e}; check the path", frame.display()))?;
+    let name = full
+        .file_name()
+        .ok_or_else(|| anyhow!("{}: not a frame's folder", frame.display()))?;
+    Ok(name.into())
+}
+
+/// What is the same for all frames of a run.
+struct Run<'a> {
+    picker: Picker,
+    transform: Option<RobotFromCamera>,
+    arguments: &'a PickArguments,
+    terminal: Terminal,
+}
+
+impl Run<'_> {
+    /// Answers one frame and writes its files, all or none.
+    fn frame(&self, job: &Job) -> anyhow::Result<Record> {
+        let start = Instant::now();
+        let mut frame = Frame::read(&job.frame)?;
+        if let Some(path) = &self.arguments.boxes {
+            frame.boxes = Some(read_boxes(path, frame.color.width, frame.color.height)?);
+        }
+        log::info!("{}: read in {:.0?}", frame.id, start.elapsed());
+        let start = Instant::now();
+        let outcome = self
+            .picker
+            .pick(&frame, self.arguments.seed, self.transform.as_ref())?;
+        log::info!("{}: picked in {:.0?}", frame.id, start.elapsed());
+        let start = Instant::now();
+        self.write(job, &frame, &outcome)?;
+        log::info!("{}: written in {:.0?}", frame.id, start.elapsed());
+        Ok(outcome.record)
+    }
+
+    fn write(&self, job: &Job, frame: &Frame, outcome: &Outcome) -> anyhow::Result<()> {
+        let chosen = self.arguments.clouds.of(outcome)?;
+        let picture = if self.arguments.no_picture {
+            None
+        } else {
+            Some(picture::draw(frame, outcome)?)
+        };
+        let clouds = if chosen.is_empty() {
+            None
+        } else {
+            Some(AppleClouds::new(frame)?)
+        };
+
+        let output = OutputFolder::new(&job.out)?;
+        write_text(
+            &output,
+            PICKS,
+            &(serde_json::to_string_pretty(&outcome.record)? + "\n"),
+        )?;
+        if let Some(picture) = picture {
+            picture.write(output.file(PICTURE))?;
+        }
+        for id in chosen {
+            let cut = clouds
+                .as_ref()
+                .and_then(|c| c.cut(&outcome.record.picks[id], &outcome.evidence[id]));
+            match cut {
+                Some(cloud) => cloud.write(
+                    output.file(&cloud_name(id)),
+                    pomona_cloud::CloudFormat::PlyBinaryLittleEndian,
+                )?,
+                None => self.terminal.note(&format!(
+                    "{}: apple {id} has no sphere, and so no cloud",
+                    frame.id
+                )),
+            }
+        }
+        output.publish()
+    }
+}

@@ -1,0 +1,19 @@
+//! The program as its users run it: arguments in; files, output and exit codes out.
+
+#![allow(
+    clippy::unwrap_used,
+    reason = "the functions that tests share are tests too"
+)]
+
+mod bad_files;
+mod bad_frames;
+mod binary;
+mod convert;
+mod inspect;
+mod pick;
+mod real_frames;
+mod scene;
+mod scenes;
+mod schema;
+mod settings;
+mod shell;

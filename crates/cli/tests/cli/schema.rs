@@ -1,0 +1,114 @@
+//! What the program writes holds to the schemas in `docs/`.
+
+use crate::binary::pomona;
+use crate::scene::Bench;
+use serde_json::{Value, json};
+use std::path::Path;
+
+struct Schema(jsonschema::Validator);
+
+impl Schema {
+    fn read(name: &str) -> Self {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR"))
+            .join("../../docs")
+            .join(name);
+        let schema: Value = serde_json::from_slice(&std::fs::read(path).unwrap()).unwrap();
+        assert!(jsonschema::meta::is_valid(&schema), "{name}");
+        Self(jsonschema::draft202012::new(&schema).unwrap())
+    }
+
+    #[track_caller]
+    fn accepts(&self, value: &Value) {
+        let errors: Vec<String> = self
+            .0
+            .iter_errors(value)
+            .map(|e| format!("{}: {e}", e.instance_path()))
+            .collect();
+        assert!(errors.is_empty(), "{}", errors.join("\n"));
+    }
+
+    /// Checks that `value` is refused with one of its places changed.
+    #[track_caller]
+    fn refuses(&self, value: &Value, place: &str, new: Option<Value>) {
+        let mut changed = value.clone();
+        let (parent, name) = place.rsplit_once('/').unwrap();
+        let parent = changed
+            .pointer_mut(parent)
+            .unwrap()
+            .as_object_mut()
+            .unwrap();
+        match new {
+            Some(new) => parent.insert(name.to_owned(), new),
+            None => parent.remove(name),
+        };
+        assert!(!self.0.is_valid(&changed), "{place}");
+    }
+}
+
+#[test]
+fn picks() {
+    let bench = Bench::new();
+    bench.write(
+        "t.json",
+        r#"{"schema": "pomona.transform/1", "to": "base", "from": "camera_color_optical_frame",
+            "translation_m": [0, 0, 0.5], "quaternion_xyzw": [0, 0, 0, 1]}"#,
+    );
+    let schema = Schema::read("picks.schema.json");
+    let frame = bench.text("a");
+    pomona(&["pick", &frame, "--out", &bench.text("out")]).succeeded();
+    schema.accepts(&bench.read_json("out/picks.json"));
+    let transform = ["--transform", &bench.text("t.json")];
+    pomona(
+        &[
+            &["pick", &frame, "--out", &bench.text("robot")],
+            &transform[..],
+        ]
+        .concat(),
+    )
+    .succeeded();
+    let picks = bench.read_json("robot/picks.json");
+    schema.accepts(&picks);
+
+    schema.refuses(&picks, "/schema", Some(json!("pomona.picks/2")));
+    schema.refuses(&picks, "/extra", Some(json!(1)));
+    schema.refuses(&picks, "/seed", None);
+    for place in [
+        "/picks/0/extra",
+        "/picks/0/apple/extra",
+        "/picks/0/robot/extra",
+        "/frame/extra",
+    ] {
+        schema.refuses(&picks, place, Some(json!(1)));
+    }
+    schema.refuses(&picks, "/picks/0/direction", None);
+    schema.refuses(&picks, "/picks/0/status", Some(json!("no_branch")));
+    schema.refuses(&picks, "/picks/1/status", Some(json!("picked")));
+    schema.refuses(&picks, "/picks/0/direction", Some(json!([0, 0])));
+    schema.refuses(&picks, "/picks/0/direction", Some(json!([0, 0, 2])));
+}
+
+#[test]
+fn truth() {
+    let bench = Bench::new();
+    let schema = Schema::read("truth.schema.json");
+    pomona(&[
+        "scenes",
+        "lab15",
+        "--count",
+        "1",
+        "--out",
+        &bench.text("out"),
+    ])
+    .succeeded();
+    let truth = bench.read_json("out/lab-x-90-s0/truth.json");
+    schema.accepts(&truth);
+    // A camera that is not the one stated brings in all optional fields.
+    let mut all = truth.clone();
+    all["camera"] = bench.read_json("a/camera.json");
+    schema.accepts(&all);
+    schema.refuses(&truth, "/extra", Some(json!(1)));
+    schema.refuses(&truth, "/apples/0/extra", Some(json!(1)));
+    schema.refuses(&truth, "/apples/0/branch/extra", Some(json!(1)));
+    schema.refuses(&truth, "/apples/0/center", None);
+    schema.refuses(&truth, "/apples/0/radius", Some(json!(0)));
+}

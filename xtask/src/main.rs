@@ -1,2 +1,53 @@
-//! To be written.
-fn main() {}
+//! The project's own commands: `cargo xtask COMMAND`.
+//!
+//! `ci` is everything that a change must pass; `tidy` the rules that no
+//! compiler knows; `regress` whether any result got worse; `bench` how fast and how exact we are, and the peers.
+//!
+//! No algorithm lives here and none is linked in: commands start the programs
+//! of the workspace and read what they print.
+
+mod bench;
+mod ci;
+mod regress;
+mod source;
+mod tidy;
+mod workspace;
+
+use clap::{Parser, Subcommand};
+use std::process::ExitCode;
+
+/// The project's own commands.
+#[derive(Parser)]
+#[command(name = "cargo xtask", bin_name = "cargo xtask")]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Everything that a change must pass, from formatting to the regression gate
+    Ci,
+    /// The rules that no compiler knows: layers, front pages, lengths, dependencies
+    Tidy,
+    /// How long it takes and how far off it is, ours and the peers'
+    Bench(bench::Args),
+    /// Golden runs and accuracy floors: did anything get worse?
+    Regress(regress::Args),
+}
+
+fn main() -> ExitCode {
+    let outcome = match Arguments::parse().command {
+        Command::Ci => ci::run(),
+        Command::Tidy => tidy::run(),
+        Command::Bench(args) => bench::run(&args),
+        Command::Regress(args) => regress::run(&args),
+    };
+    match outcome {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error:#}");
+            ExitCode::FAILURE
+        }
+    }
+}

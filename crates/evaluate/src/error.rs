@@ -1,0 +1,65 @@
+use std::path::PathBuf;
+use thiserror::Error;
+
+/// Why an evaluation could not be made.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum EvaluateError {
+    /// It is neither a suite nor a folder.
+    #[error("`{name}` is neither a folder nor a suite; the suites are {}", .suites.join(", "))]
+    UnknownSubject {
+        /// What was asked for.
+        name: String,
+        /// The suites there are.
+        suites: Vec<&'static str>,
+    },
+    /// A folder without a truth to measure against.
+    #[error(
+        "{path}: no truth.json in it or in its folders; give a frame that knows its truth, or --calipers FILE"
+    )]
+    NoTruth {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// A scene or a truth could not be read.
+    #[error(transparent)]
+    Scene(#[from] pomona_scenes::SceneError),
+    /// A frame could not be read.
+    #[error(transparent)]
+    Frame(#[from] pomona_cloud::CloudError),
+    /// A method could not work on a frame at all.
+    #[error(transparent)]
+    Pick(#[from] pomona::PickError),
+    /// The system refused a file.
+    #[error("{path}: {source}")]
+    Io {
+        /// The file or folder.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// A file is not of the form that is read here.
+    #[error("{path}: {problem}; {remedy}")]
+    Malformed {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        problem: String,
+        /// What to do.
+        remedy: String,
+    },
+    /// A table could not be written as text.
+    #[error("table of apples: {reason}")]
+    Table {
+        /// Why.
+        reason: String,
+    },
+    /// A plot could not be drawn.
+    #[error("plot `{name}`: {reason}")]
+    Plot {
+        /// The plot.
+        name: String,
+        /// Why.
+        reason: String,
+    },
+}

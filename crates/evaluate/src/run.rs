@@ -1,0 +1,127 @@
+use crate::{
+    AppleRow, EvaluateError, Evaluation, PickMethod, SCHEMA, Subject, SuiteResult, compare,
+    match_picks,
+};
+use rayon::prelude::*;
+
+/// What one method said of one frame.
+struct Answered {
+    rows: Vec<AppleRow>,
+    /// Picks that belong to no apple of the truth.
+    stray: usize,
+}
+
+/// Runs every method over every subject, subjects in parallel, and draws up the statistics.
+///
+/// `done` is called once for each subject, from any thread. Timings aside, the outcome depends on
+/// subjects, methods and seed alone, whatever the number of threads.
+///
+/// # Errors
+///
+/// The first subject that cannot be loaded, or that a method cannot work on at all.
+pub fn evaluate(
+    subjects: &[Subject],
+    methods: &[&dyn PickMethod],
+    seed: u64,
+    done: &(dyn Fn() + Sync),
+) -> Result<Evaluation, EvaluateError> {
+    let suites = suite_names(subjects);
+    let numbers = numbers(subjects);
+    let answered: Vec<Vec<Answered>> = subjects
+        .par_iter()
+        .zip(&numbers)
+        .map(|(subject, &number)| {
+            let answered = answer(subject, number, methods, seed);
+            done();
+            answered
+        })
+        .collect::<Result<_, _>>()?;
+
+    let mut results = Vec::new();
+    let mut rows = Vec::new();
+    for suite in &suites {
+        for (m, method) in methods.iter().enumerate() {
+            let of_suite = subjects
+                .iter()
+                .zip(&answered)
+                .filter(|(s, _)| s.suite == *suite);
+            let (mut own, mut cases, mut stray) = (Vec::new(), 0, 0);
+            for (_, methods) in of_suite {
+                own.extend(methods[m].rows.iter().cloned());
+                stray += methods[m].stray;
+                cases += 1;
+            }
+            results.push(SuiteResult::of(suite, method.name(), cases, stray, &own));
+            rows.extend(own);
+        }
+    }
+    let comparisons = compare(&rows);
+    Ok(Evaluation {
+        schema: SCHEMA.to_owned(),
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        seed,
+        results,
+        comparisons,
+        apples: rows,
+    })
+}
+
+fn answer(
+    subject: &Subject,
+    number: usize,
+    methods: &[&dyn PickMethod],
+    seed: u64,
+) -> Result<Vec<Answered>, EvaluateError> {
+    let scene = subject.load()?;
+    methods
+        .iter()
+        .map(|method| {
+            let picks = method.answer(&scene.frame, seed)?.picks;
+            let matched = match_picks(&scene.truth.apples, &picks);
+            let rows = scene
+                .truth
+                .apples
+                .iter()
+                .zip(&matched)
+                .map(|(apple, pick)| {
+                    let pick = pick.map(|p| &picks[p]);
+                    AppleRow::new(
+                        &subject.suite,
+                        &subject.name,
+                        number,
+                        method.name(),
+                        apple,
+                        pick,
+                    )
+                });
+            Ok(Answered {
+                rows: rows.collect(),
+                stray: picks.len() - matched.iter().flatten().count(),
+            })
+        })
+        .collect()
+}
+
+/// The suites in the order in which they first appear.
+fn suite_names(subjects: &[Subject]) -> Vec<String> {
+    let mut names: Vec<String> = Vec::new();
+    for subject in subjects {
+        if !names.contains(&subject.suite) {
+            names.push(subject.suite.clone());
+        }
+    }
+    names
+}
+
+/// The number of each subject in its own suite.
+fn numbers(subjects: &[Subject]) -> Vec<usize> {
+    let mut counts = std::collections::BTreeMap::new();
+    subjects
+        .iter()
+        .map(|subject| {
+            let count = counts.entry(subject.suite.as_str()).or_insert(0);
+            *count += 1;
+            *count - 1
+        })
+        .collect()
+}

@@ -1,0 +1,186 @@
+//! `cargo xtask regress`: did any result get worse?
+//!
+//! Runs the program over the suites of `xtask/regress.toml`, reads what it writes, and holds it against the
+//! limits there and the golden runs in `fixtures/golden`.
+
+mod lab;
+mod table;
+
+use crate::workspace::{cargo, root};
+use anyhow::{Context, Result, bail, ensure};
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+use xtask::gate::{Finding, Golden, Limits, SuiteLimits, Verdict, failures, judge};
+
+const LIMITS: &str = "xtask/regress.toml";
+const GOLDEN: &str = "fixtures/golden";
+const OUT: &str = "target/regress";
+
+/// What to run.
+#[derive(clap::Args, Default)]
+pub(crate) struct Args {
+    /// Every suite, also those that take longer
+    #[arg(long)]
+    full: bool,
+    /// Only this suite
+    #[arg(long, value_name = "NAME")]
+    suite: Option<String>,
+    /// Take this run's values as the golden ones; limits and truth stay as they are
+    #[arg(long)]
+    bless: bool,
+    /// Show every field, not only those that moved
+    #[arg(long)]
+    all: bool,
+}
+
+/// Runs the suites and says what moved; an error where something is worse than it may be.
+pub(crate) fn run(args: &Args) -> Result<()> {
+    let limits = Limits::read(&root().join(LIMITS))?;
+    let chosen: Vec<&SuiteLimits> = limits
+        .suites
+        .iter()
+        .filter(|suite| match &args.suite {
+            Some(name) => suite.name == *name,
+            None => args.full || !suite.full,
+        })
+        .collect();
+    if chosen.is_empty() {
+        let names: Vec<_> = limits
+            .suites
+            .iter()
+            .map(|suite| suite.name.as_str())
+            .collect();
+        bail!("no such suite in {LIMITS}; there are {}", names.join(", "));
+    }
+    build()?;
+    let golden_folder = root().join(GOLDEN);
+    let mut findings: Vec<Finding> = Vec::new();
+    for suite in chosen {
+        let start = Instant::now();
+        let result = evaluate(suite)?;
+        println!("{}: {:.1} s", suite.id(), start.elapsed().as_secs_f64());
+        if args.bless {
+            Golden::of(&result, suite)?.write(&golden_folder, suite)?;
+        }
+        let golden = Golden::read(&golden_folder, suite)?;
+        findings.extend(judge(&result, suite, golden.as_ref()));
+        let tables = lab::tables(&result);
+        if !tables.is_empty() {
+            println!("\n{tables}");
+        }
+    }
+    println!("\n{}", table::of(&findings, args.all));
+    let failed = failures(&findings).count();
+    let better = findings
+        .iter()
+        .filter(|f| f.verdict == Verdict::Better)
+        .count();
+    if better > 0 {
+        println!("{better} better than golden: `cargo xtask regress --bless` keeps what was won");
+    }
+    ensure!(
+        failed == 0,
+        "regress: {failed} of {} fields are worse than they may be; if that is meant, say why in {LIMITS} \
+         or bless the goldens",
+        findings.len()
+    );
+    println!(
+        "regress: {} fields, none worse than it may be",
+        findings.len()
+    );
+    Ok(())
+}
+
+fn build() -> Result<()> {
+    let status = cargo()
+        .args(["build", "--release", "--quiet", "--package", "pomona-cli"])
+        .status()
+        .context("cannot start cargo")?;
+    ensure!(status.success(), "the program does not build");
+    Ok(())
+}
+
+/// Runs the program over a suite and reads the entry of its result.
+fn evaluate(suite: &SuiteLimits) -> Result<Value> {
+    let out: PathBuf = Path::new(OUT).join(suite.id());
+    let mut command = cargo();
+    command
+        .args([
+            "run",
+            "--release",
+            "--quiet",
+            "--package",
+            "pomona-cli",
+            "--",
+            "evaluate",
+            &suite.name,
+        ])
+        .args(["--method", &suite.method, "--seed", &suite.seed.to_string()])
+        .arg("--out")
+        .arg(&out);
+    if let Some(count) = suite.count {
+        command.args(["--count", &count.to_string()]);
+    }
+    let run = command.output().context("cannot start cargo")?;
+    let errors = String::from_utf8_lossy(&run.stderr);
+    ensure!(
+        run.status.success(),
+        "{}: {}",
+        suite.id(),
+        errors.trim_end()
+    );
+    let path = root().join(out).join("evaluation.json");
+    let what = || path.display().to_string();
+    let evaluation: Value =
+        serde_json::from_str(&std::fs::read_to_string(&path).with_context(what)?)
+            .with_context(what)?;
+    let own = |entry: &&Value| {
+        entry.get("suite").and_then(Value::as_str) == Some(&suite.name)
+            && entry.get("method").and_then(Value::as_str) == Some(&suite.method)
+    };
+    let results = evaluation.get("results").and_then(Value::as_array);
+    let result = results.into_iter().flatten().find(own);
+    result
+        .cloned()
+        .with_context(|| format!("{}: no result of {}", what(), suite.id()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_run_that_is_asked_for_has_its_golden() {
+        let limits = Limits::read(&root().join(LIMITS)).unwrap();
+        for suite in &limits.suites {
+            let golden = Golden::read(&root().join(GOLDEN), suite).unwrap();
+            assert!(
+                golden.is_some(),
+                "{}: cargo xtask regress --full --bless",
+                suite.id()
+            );
+        }
+    }
+
+    #[test]
+    fn the_targets_of_the_lab_stand() {
+        let limits = Limits::read(&root().join(LIMITS)).unwrap();
+        let lab = limits
+            .suites
+            .iter()
+            .find(|s| s.name == "lab150" && s.method == "paper")
+            .unwrap();
+        for (field, ceiling) in [
+            ("angle_mean_deg", 6.0),
+            ("angle_max_deg", 18.0),
+            ("center_mean_mm", 2.2),
+        ] {
+            assert!(
+                lab.fields[field].ceiling.is_some_and(|c| c <= ceiling),
+                "{field}"
+            );
+        }
+        assert!(!lab.full);
+    }
+}

@@ -1,0 +1,7 @@
+//! Every exception to a rule of `tidy`, each with its reason.
+
+/// Files that may be longer than the rest: path and reason.
+pub(super) const LONG_FILES: &[(&str, &str)] = &[];
+
+/// Dependencies that no source names: package, dependency and reason.
+pub(super) const UNNAMED_DEPENDENCIES: &[(&str, &str, &str)] = &[];

@@ -66,7 +66,7 @@ fn compare(workspace: &Workspace, args: &Args) -> Result<()> {
         for primitive in [Primitive::Sphere, Primitive::Line] {
             for mode in [Mode::Full, Mode::Adaptive] {
                 let comparison = Comparison::new(&contest, &clouds, suite, primitive, mode);
-                println!("\n{}", table::of(&comparison));
+                println!("{}", table::of(&comparison));
                 summary.push(comparison.to_json());
             }
         }

@@ -17,6 +17,9 @@ use std::path::Path;
 /// Name and version of the form of [`CaliperReport`].
 pub const CALIPER_SCHEMA: &str = "pomona.calipers/1";
 
+/// What to do about a table that is not one of calipers.
+const COLUMNS: &str = "give CSV with a header and the columns box_name and diameter_mm";
+
 /// What somebody measured of one apple.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Caliper {
@@ -107,7 +110,6 @@ pub fn read_calipers(path: impl AsRef<Path>) -> Result<Vec<Caliper>, EvaluateErr
         problem,
         remedy: remedy.to_owned(),
     };
-    const COLUMNS: &str = "give CSV with a header and the columns box_name and diameter_mm";
     let text = std::fs::read_to_string(path).map_err(|source| EvaluateError::Io {
         path: path.to_owned(),
         source,

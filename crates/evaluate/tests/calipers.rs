@@ -11,7 +11,7 @@ use std::path::Path;
 struct Moved(Picker);
 
 impl PickMethod for Moved {
-    fn name(&self) -> &str {
+    fn name(&self) -> &'static str {
         "moved"
     }
 

@@ -6,17 +6,17 @@ use pomona_evaluate::{EvaluateError, Evaluation, PickMethod, Subject, evaluate};
 use rayon::ThreadPoolBuilder;
 
 fn picker() -> Picker {
-    Picker::new(Config::default()).unwrap()
+    Picker::new(Config::default()).expect("the default settings make sense")
 }
 
 fn run(threads: usize) -> Evaluation {
-    let subjects = Subject::named("lab15", Some(4)).unwrap();
+    let subjects = Subject::named("lab15", Some(4)).expect("a suite");
     let pool = ThreadPoolBuilder::new()
         .num_threads(threads)
         .build()
-        .unwrap();
+        .expect("threads");
     pool.install(|| evaluate(&subjects, &[&picker()], 3, &|| {}))
-        .unwrap()
+        .expect("an evaluation")
         .without_timing()
 }
 
@@ -54,7 +54,7 @@ fn what_was_written_reads_back() {
 struct Silent(Picker);
 
 impl PickMethod for Silent {
-    fn name(&self) -> &str {
+    fn name(&self) -> &'static str {
         "silent"
     }
 

@@ -55,21 +55,21 @@ impl PickMethod for Spoilt {
 /// What the gate says of `lab15` under a method that is spoilt in this way.
 fn findings(sabotage: Sabotage) -> Vec<Finding> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-    let limits = Limits::read(&root.join("xtask/regress.toml")).unwrap();
+    let limits = Limits::read(&root.join("xtask/regress.toml")).expect("the limits");
     let suite: &SuiteLimits = limits
         .suites
         .iter()
         .find(|s| s.id() == "lab15.paper")
         .expect("a run of lab15");
-    let golden = Golden::read(&root.join("fixtures/golden"), suite).unwrap();
+    let golden = Golden::read(&root.join("fixtures/golden"), suite).expect("a golden run");
 
-    let subjects = Subject::named(&suite.name, suite.count).unwrap();
+    let subjects = Subject::named(&suite.name, suite.count).expect("a suite");
     let method = Spoilt {
-        method: Picker::new(Config::default()).unwrap(),
+        method: Picker::new(Config::default()).expect("the default settings make sense"),
         sabotage,
     };
-    let evaluation = evaluate(&subjects, &[&method], suite.seed, &|| {}).unwrap();
-    let result = serde_json::to_value(&evaluation.results[0]).unwrap();
+    let evaluation = evaluate(&subjects, &[&method], suite.seed, &|| {}).expect("an evaluation");
+    let result = serde_json::to_value(&evaluation.results[0]).expect("JSON");
     judge(&result, suite, golden.as_ref())
 }
 

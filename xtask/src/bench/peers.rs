@@ -86,7 +86,7 @@ fn pcl(folder: &Path, native: bool) -> Result<Vec<OsString>, String> {
         .max()
         .ok_or_else(|| {
             format!(
-                "no PCL under {}; install libpcl-dev or set PCL_ROOT",
+                "no PCL under {}; install libpcl-dev or set PCL_ROOT to one that is unpacked",
                 include.display()
             )
         })?;
@@ -118,7 +118,7 @@ fn pcl(folder: &Path, native: bool) -> Result<Vec<OsString>, String> {
     } else {
         compiler.args(["-O2", "-lpcl_sample_consensus", "-lpcl_common"]);
     }
-    build(&mut compiler)?;
+    build("PCL's program", &mut compiler)?;
     Ok(vec![program.into()])
 }
 
@@ -144,11 +144,15 @@ fn python(folder: &Path, install: bool) -> Result<Vec<OsString>, String> {
     let python = environment.join("bin/python");
     if install {
         build(
+            "a Python environment",
             Command::new("python3")
                 .args(["-m", "venv"])
                 .arg(&environment),
         )?;
-        build(Command::new(&python).args(["-m", "pip", "install", "--quiet", REQUIREMENT]))?;
+        build(
+            REQUIREMENT,
+            Command::new(&python).args(["-m", "pip", "install", "--quiet", REQUIREMENT]),
+        )?;
     }
     let found = Command::new(&python)
         .args(["-c", "import pyransac3d"])
@@ -182,26 +186,18 @@ fn rust(name: &str, folder: &Path, install: bool) -> Result<Vec<OsString>, Strin
     if !install {
         command.arg("--offline");
     }
-    build(&mut command).map_err(|reason| {
+    build(name, &mut command).map_err(|reason| {
         format!("{reason}; `cargo xtask bench --peers --install` gets what it needs")
     })?;
     Ok(vec![target.join("release").join(name).into()])
 }
 
-/// Runs a command; the reason is the first line in which it speaks of an error, or its last.
-fn build(command: &mut Command) -> Result<(), String> {
-    let name = command.get_program().to_string_lossy().into_owned();
-    eprintln!(
-        "building: {name} {}",
-        command
-            .get_args()
-            .map(|a| a.to_string_lossy())
-            .collect::<Vec<_>>()
-            .join(" ")
-    );
+/// Runs a command that makes `what`; the reason is the first line in which it speaks of an error, or its last.
+fn build(what: &str, command: &mut Command) -> Result<(), String> {
+    eprintln!("building {what}");
     let output = command
         .output()
-        .map_err(|error| format!("cannot start {name}: {error}"))?;
+        .map_err(|error| format!("cannot start what builds it: {error}"))?;
     if output.status.success() {
         return Ok(());
     }
@@ -211,7 +207,7 @@ fn build(command: &mut Command) -> Result<(), String> {
         .find(|line| line.contains("error"))
         .or(errors.lines().last());
     Err(format!(
-        "{name} failed: {}",
+        "does not build: {}",
         line.unwrap_or("without a word").trim()
     ))
 }

@@ -225,7 +225,7 @@ mod tests {
             "[[suite]]\nname = \"lab15\"\nmethod = \"paper\"\n[suite.fields]\norientation_angle_mean_deg = { tolerance = 1 }\n",
         )
         .unwrap();
-        let of = |rows: serde_json::Value| serde_json::json!({"cases": 15, "lab": rows});
+        let of = |rows: Value| serde_json::json!({"cases": 15, "lab": rows});
         let row =
             |name: &str| serde_json::json!({"orientation": name, "angle_error": {"mean": 0.1}});
         let golden = Golden::of(

@@ -1,7 +1,7 @@
 use super::table::aligned;
 use serde_json::Value;
 
-/// The paper's Tables 1–3 beside ours; empty where the result has no lab rows.
+/// The paper's Tables 1–3 beside ours; empty where the result has no lab rows, or one draw of each only.
 pub(super) fn tables(result: &Value) -> String {
     let rows: Vec<&Value> = result
         .get("lab")
@@ -10,6 +10,9 @@ pub(super) fn tables(result: &Value) -> String {
         .flatten()
         .collect();
     let mut text = String::new();
+    if rows.first().is_none_or(|row| draws(row) < 2) {
+        return text;
+    }
     for (table, axis) in [(1, 'x'), (2, 'y'), (3, 'z')] {
         let own: Vec<&&Value> = rows
             .iter()
@@ -18,10 +21,11 @@ pub(super) fn tables(result: &Value) -> String {
         if own.is_empty() {
             continue;
         }
-        text += &format!(
+        let title = format!(
             "Table {table}: rotated about {axis}, paper (2022) and ours over {} draws each\n",
             draws(own[0])
         );
+        text += &title;
         let header = [
             "angle °",
             "r mm paper",
@@ -44,11 +48,12 @@ pub(super) fn tables(result: &Value) -> String {
                 .collect();
             values.iter().sum::<f64>() / values.len() as f64
         };
-        text += &format!(
+        let means = format!(
             "Mean of the fifteen angle errors: paper {:.2}°, ours {:.2}°\n",
             mean("/paper_angle_error").to_degrees(),
             mean("/angle_error/mean").to_degrees()
         );
+        text += &means;
     }
     text
 }
@@ -89,7 +94,7 @@ mod tests {
     #[test]
     fn paper_and_ours_stand_in_one_line() {
         let row = json!({"orientation": "x-45", "draws": 10, "radius": {"mean": 0.026, "sd": 0.0001},
-            "paper_radius": 0.02778, "paper_angle_error": 0.0123918, "angle_error": {"mean": 0.05, "max": 0.06},
+            "paper_radius": 0.02778, "paper_angle_error": 0.012_391_8, "angle_error": {"mean": 0.05, "max": 0.06},
             "center_error": {"mean": 0.001}});
         let text = tables(&json!({ "lab": [row] }));
         for part in [

@@ -25,7 +25,8 @@ pub(super) fn of(findings: &[Finding], all: bool) -> String {
     };
     let quiet = findings.len() - shown.len();
     if quiet > 0 {
-        text += &format!("{quiet} fields stayed within their tolerance\n");
+        let line = format!("{quiet} fields stayed within their tolerance\n");
+        text += &line;
     }
     text
 }

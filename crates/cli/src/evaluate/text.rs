@@ -119,9 +119,10 @@ pub(super) fn calipers(report: &CaliperReport, terminal: Terminal) -> String {
         });
         let bias = known(result.radius_error.as_ref(), |s| with_interval(s, mm));
         let count = result.radius_error.as_ref().map_or(0, |s| s.count);
-        text += &format!(
+        let means = format!(
             "mean |error| {absolute} mm, bias {bias} mm, over {count} boxes with a sphere\n"
         );
+        text += &means;
         for alignment in &result.alignments {
             text += &(consistency(alignment) + "\n");
         }

@@ -173,17 +173,14 @@ fn distances(alignment: &Alignment) -> Result<String, EvaluateError> {
         &y,
         &[
             Series {
-                label: None,
                 color: OURS,
                 marks: bars(true),
             },
             Series {
-                label: None,
                 color: FAINT,
                 marks: bars(false),
             },
             Series {
-                label: None,
                 color: GREEN,
                 marks: median,
             },

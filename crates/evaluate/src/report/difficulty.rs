@@ -119,12 +119,10 @@ fn draw(grouping: &Grouping, rows: &[&AppleRow]) -> Result<String, EvaluateError
         &y,
         &[
             Series {
-                label: None,
                 color: FAINT,
                 marks: Marks::Dots(dots),
             },
             Series {
-                label: None,
                 color: OURS,
                 marks: means,
             },

@@ -28,15 +28,14 @@ pub(super) fn table(header: &[&str], rows: &[Vec<String>]) -> String {
         cells.collect()
     };
     let head = cells("th", &mut header.iter().copied());
-    let body: String = rows
+    let body: Vec<String> = rows
         .iter()
         .map(|row| {
-            format!(
-                "<tr>{}</tr>\n",
-                cells("td", &mut row.iter().map(String::as_str))
-            )
+            let cells = cells("td", &mut row.iter().map(String::as_str));
+            format!("<tr>{cells}</tr>\n")
         })
         .collect();
+    let body = body.concat();
     format!(
         "<div class=\"wide\"><table><thead><tr>{head}</tr></thead><tbody>\n{body}</tbody></table></div>\n"
     )
@@ -44,16 +43,20 @@ pub(super) fn table(header: &[&str], rows: &[Vec<String>]) -> String {
 
 /// Plots side by side, so many in a row, each with its caption.
 pub(super) fn figures(in_a_row: usize, figures: &[(String, String)]) -> String {
-    let figures: String = figures
+    let figures: Vec<String> = figures
         .iter()
         .map(|(svg, caption)| {
-            format!(
-                "<figure>{svg}<figcaption>{}</figcaption></figure>\n",
-                escape(caption)
-            )
+            let caption = escape(caption);
+            format!("<figure>{svg}<figcaption>{caption}</figcaption></figure>\n")
         })
         .collect();
+    let figures = figures.concat();
     format!("<div class=\"figures in-{in_a_row}\">\n{figures}</div>\n")
+}
+
+/// A heading of a part of a suite.
+pub(super) fn heading(text: &str) -> String {
+    format!("<h3>{}</h3>\n", escape(text))
 }
 
 /// A paragraph.

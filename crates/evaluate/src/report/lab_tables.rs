@@ -1,4 +1,4 @@
-use super::html::{figures, paragraph, table};
+use super::html::{figures, heading, paragraph, table};
 use super::number::{degrees, mm, or_unknown};
 use super::plot::{Axis, Marks, OURS, PAPER, Series, from_zero, plot};
 use crate::{EvaluateError, LabRow, SuiteResult};
@@ -18,25 +18,25 @@ pub(super) fn section(result: &SuiteResult) -> Result<String, EvaluateError> {
         if own.is_empty() {
             continue;
         }
-        text += &format!(
-            "<h3>Table {number}: rotated about {axis}, {} draws each</h3>\n",
-            own[0].draws
-        );
+        let draws = own[0].draws;
+        text += &heading(&format!(
+            "Table {number}: rotated about {axis}, {draws} draws each"
+        ));
         let rows: Vec<Vec<String>> = own.iter().map(|row| line(row)).collect();
         text += &table(
             &[
                 "angle °",
                 "true direction",
-                "paper's",
-                "ours (mean)",
-                "radius mm: paper",
-                "ours",
-                "± sd",
-                "centre off mm",
-                "angle error °: paper",
-                "ours: mean",
-                "min",
-                "max",
+                "paper's direction",
+                "our mean direction",
+                "radius mm\npaper",
+                "radius mm\nours",
+                "sd mm\nours",
+                "centre off\nmm",
+                "error °\npaper",
+                "error °\nour mean",
+                "error °\nleast",
+                "error °\nlargest",
             ],
             &rows,
         );
@@ -45,7 +45,7 @@ pub(super) fn section(result: &SuiteResult) -> Result<String, EvaluateError> {
         "True radius 25.78 mm. The paper's vector for x = −90° is misprinted: its norm is 1.166 and it lies 34.2° off, \
          not the 5.23° printed beside it.",
     );
-    let caption = "Angle error of each orientation: ours from the least to the largest draw with the mean, and the paper's.";
+    let caption = "Angle error of each orientation: ours red, from the least to the largest draw with the mean; the paper's blue.";
     text += &figures(1, &[(draw(&result.lab)?, caption.to_owned())]);
     Ok(text)
 }
@@ -101,12 +101,10 @@ fn draw(rows: &[LabRow]) -> Result<String, EvaluateError> {
         &y,
         &[
             Series {
-                label: Some("ours"),
                 color: OURS,
                 marks: Marks::Intervals(ours),
             },
             Series {
-                label: Some("paper"),
                 color: PAPER,
                 marks: Marks::Rings(paper),
             },

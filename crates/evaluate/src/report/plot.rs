@@ -56,9 +56,8 @@ pub(super) enum Marks {
     Intervals(Vec<(f64, f64, f64, f64)>),
 }
 
-/// One series and its entry in the legend, where it has one.
-pub(super) struct Series<'a> {
-    pub(super) label: Option<&'a str>,
+/// One series; the caption says what its colour means.
+pub(super) struct Series {
     pub(super) color: RGBColor,
     pub(super) marks: Marks,
 }
@@ -68,7 +67,7 @@ pub(super) fn plot(
     (width, height): (u32, u32),
     x: &Axis<'_>,
     y: &Axis<'_>,
-    series: &[Series<'_>],
+    series: &[Series],
 ) -> Result<String, EvaluateError> {
     let mut svg = String::new();
     draw(&mut svg, (width, height), x, y, series).map_err(|reason| EvaluateError::Plot {
@@ -89,7 +88,7 @@ fn draw(
     size: (u32, u32),
     x: &Axis<'_>,
     y: &Axis<'_>,
-    series: &[Series<'_>],
+    series: &[Series],
 ) -> Result<(), String> {
     let text = |e: &dyn std::fmt::Display| e.to_string();
     let area = SVGBackend::with_string(svg, size).into_drawing_area();
@@ -122,7 +121,7 @@ fn draw(
         .map_err(|e| text(&e))?;
     for one in series {
         let color = one.color;
-        let drawn = match &one.marks {
+        match &one.marks {
             Marks::Bars(bars) => chart.draw_series(bars.iter().map(|&(from, to, h)| {
                 let mut bar = Rectangle::new([(from, 0.0), (to, h)], color.mix(0.75).filled());
                 bar.set_margin(0, 0, 1, 1);
@@ -156,41 +155,13 @@ fn draw(
             }
         }
         .map_err(|e| text(&e))?;
-        if let Some(label) = one.label {
-            drawn
-                .label(label)
-                .legend(move |(x, y)| Circle::new((x + 8, y), 4, color.filled()));
-        }
-    }
-    if series.iter().any(|one| one.label.is_some()) {
-        chart
-            .configure_series_labels()
-            .position(SeriesLabelPosition::Coordinate(
-                (size.0 as i32 - 60 - legend_width(series)).max(0),
-                6,
-            ))
-            .background_style(WHITE.mix(0.85))
-            .border_style(TRANSPARENT)
-            .label_font(font)
-            .draw()
-            .map_err(|e| text(&e))?;
     }
     area.present().map_err(|e| text(&e))
 }
 
-/// Width of the legend's box, by the length of its longest entry.
-fn legend_width(series: &[Series<'_>]) -> i32 {
-    let longest = series
-        .iter()
-        .filter_map(|s| s.label)
-        .map(|l| l.chars().count())
-        .max();
-    longest.map_or(0, |n| n as i32 * 8 + 50)
-}
-
 /// A tick's number, with the digits that the range asks for.
 fn tick(value: f64, range: &Range<f64>) -> String {
-    let span = range.end - range.start;
+    let span = (range.end - range.start).abs();
     let value = if value.abs() < span * 1e-9 {
         0.0
     } else {
@@ -234,19 +205,17 @@ mod tests {
         let y = Axis::new("share (%)", 0.0..100.0);
         let series = [
             Series {
-                label: Some("ours"),
                 color: OURS,
                 marks: Marks::Bars(vec![(0.0, 5.0, 60.0)]),
             },
             Series {
-                label: None,
                 color: PAPER,
                 marks: Marks::Intervals(vec![(20.0, 1.0, 2.0, 3.0)]),
             },
         ];
         let svg = plot((480, 300), &x, &y, &series).unwrap();
         assert!(svg.starts_with("<svg role=\"img\"") && svg.trim_end().ends_with("</svg>"));
-        assert!(svg.contains("angle (°)") && svg.contains("share (%)") && svg.contains("ours"));
+        assert!(svg.contains("angle (°)") && svg.contains("share (%)"));
     }
 
     #[test]

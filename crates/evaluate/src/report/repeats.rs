@@ -47,11 +47,11 @@ pub(super) fn section(result: &SuiteResult, rows: &[&AppleRow]) -> Result<String
         &[
             (
                 histogram(&angles)?,
-                "Figure 14: angle to the mean direction, 5° a bar.".to_owned(),
+                "Figure 14: histogram of the angle to the mean direction.".to_owned(),
             ),
             (
                 cumulative(&angles, &stated)?,
-                "Figure 15: its cumulative share; the rings are the shares that the paper states."
+                "Figure 15: its cumulative share; the blue rings are the shares that the paper states."
                     .to_owned(),
             ),
         ],
@@ -189,22 +189,18 @@ fn scatter(
         &y,
         &[
             Series {
-                label: None,
                 color: PAPER,
                 marks: Marks::Segments(pairs),
             },
             Series {
-                label: None,
                 color: GREEN,
                 marks: Marks::Dots(feet),
             },
             Series {
-                label: None,
                 color: OURS,
                 marks: Marks::Dots(centers),
             },
             Series {
-                label: None,
                 color: OURS,
                 marks: Marks::Line(mean.to_vec()),
             },

@@ -31,7 +31,7 @@ pub(super) fn section(rows: &[&AppleRow]) -> Result<String, EvaluateError> {
                 &[
                     (
                         histogram(&angles)?,
-                        "Angle error against truth, 5° a bar.".to_owned(),
+                        "Histogram of the angle error against truth.".to_owned(),
                     ),
                     (
                         cumulative(&angles, &[])?,
@@ -50,19 +50,21 @@ pub(super) fn section(rows: &[&AppleRow]) -> Result<String, EvaluateError> {
     )
 }
 
-/// Shares of angles in bars of 5°.
+/// Shares of angles in bars.
 pub(super) fn histogram(angles: &[f64]) -> Result<String, EvaluateError> {
     let top = top_angle(angles);
-    let bars: Vec<(f64, f64, f64)> = (0..(top / 5.0) as usize)
+    // Few and clear bars, whatever the range.
+    let width = if top <= 30.0 { 1.0 } else { 5.0 };
+    let count = (top / width).round() as usize;
+    let bars: Vec<(f64, f64, f64)> = (0..count)
         .map(|i| {
-            let from = 5.0 * i as f64;
-            let inside = angles
-                .iter()
-                .filter(|&&a| a >= from && (a < from + 5.0 || a == 180.0 && from == 175.0));
+            let number = |angle: f64| ((angle / width) as usize).min(count - 1);
+            let inside = angles.iter().filter(|&&angle| number(angle) == i).count();
+            let from = width * i as f64;
             (
                 from,
-                from + 5.0,
-                100.0 * inside.count() as f64 / angles.len() as f64,
+                from + width,
+                100.0 * inside as f64 / angles.len() as f64,
             )
         })
         .collect();
@@ -73,7 +75,6 @@ pub(super) fn histogram(angles: &[f64]) -> Result<String, EvaluateError> {
         &x,
         &y,
         &[Series {
-            label: None,
             color: OURS,
             marks: Marks::Bars(bars),
         }],
@@ -94,7 +95,6 @@ pub(super) fn cumulative(angles: &[f64], paper: &[(f64, f64)]) -> Result<String,
     let x = Axis::new("angle error (°)", 0.0..top);
     let y = Axis::new("cumulative share (%)", 0.0..104.0);
     let mut series = vec![Series {
-        label: (!paper.is_empty()).then_some("ours"),
         color: OURS,
         marks: Marks::Line(steps),
     }];
@@ -104,7 +104,6 @@ pub(super) fn cumulative(angles: &[f64], paper: &[(f64, f64)]) -> Result<String,
             .map(|&(angle, share)| (angle, 100.0 * share))
             .collect();
         series.push(Series {
-            label: Some("paper"),
             color: PAPER,
             marks: Marks::Rings(points),
         });
@@ -141,12 +140,10 @@ fn offsets(rows: &[&AppleRow]) -> Result<String, EvaluateError> {
         &y,
         &[
             Series {
-                label: None,
                 color: FAINT,
                 marks: zero,
             },
             Series {
-                label: None,
                 color: GREEN,
                 marks: dots,
             },
@@ -166,12 +163,10 @@ pub(super) fn radius(label: &str, pairs: &[(f64, f64)]) -> Result<String, Evalua
         &y,
         &[
             Series {
-                label: None,
                 color: FAINT,
                 marks: equal,
             },
             Series {
-                label: None,
                 color: OURS,
                 marks: Marks::Dots(pairs.to_vec()),
             },

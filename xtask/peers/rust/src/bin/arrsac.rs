@@ -47,7 +47,7 @@ fn prepare(points: &[Point], job: &Job) -> Vec<Point> {
 }
 
 fn fit<M: Primitive>(points: &Vec<Point>, job: &Job) -> Option<Fitted<M>> {
-    let fitter = Fitter {
+    let fitter = Fitter::<M> {
         job,
         hypotheses: Cell::new(0),
         model: PhantomData,

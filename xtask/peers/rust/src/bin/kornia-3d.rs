@@ -1,6 +1,8 @@
 //! kornia-3d's RANSAC driver: hard threshold, refits of the best model so far.
 
-use kornia_3d::ransac::{Estimator, RansacConfig, Sampler, ThresholdConsensus, run_with_rng};
+use kornia_3d::ransac::{
+    Consensus, ConsensusOutcome, Estimator, RansacConfig, Sampler, ThresholdConsensus, run_with_rng,
+};
 use rand_0_10::{RngExt, SeedableRng, rngs::StdRng};
 use rust_peers::{Fitted, Job, Point, Primitive, serve};
 use std::marker::PhantomData;
@@ -28,6 +30,27 @@ impl<M: Primitive> Estimator for Fitter<'_, M> {
             .chunks_exact(M::SAMPLE)
             .find_map(|sample| M::through(sample, self.job));
         out.extend(start.and_then(|model| model.refitted(inliers)));
+    }
+}
+
+/// Its hard threshold. The driver stops early by the inliers that it is told of, which for a fixed
+/// number of hypotheses are none.
+struct Threshold {
+    inner: ThresholdConsensus,
+    adaptive: bool,
+}
+
+impl Consensus for Threshold {
+    fn consensus(&self, residuals: &[f64], inliers_out: &mut Vec<bool>) -> ConsensusOutcome {
+        let outcome = self.inner.consensus(residuals, inliers_out);
+        ConsensusOutcome {
+            inlier_count: if self.adaptive {
+                outcome.inlier_count
+            } else {
+                0
+            },
+            ..outcome
+        }
     }
 }
 
@@ -63,12 +86,7 @@ impl<M: Primitive> Sampler for Allowed<'_, M> {
 fn fit<M: Primitive>(points: &Vec<Point>, job: &Job) -> Option<Fitted<M>> {
     let config = RansacConfig {
         max_iters: job.hypotheses as u32,
-        // Over 1, no number of samples is enough.
-        confidence: if job.confidence > 0.0 {
-            job.confidence
-        } else {
-            1.0
-        },
+        confidence: job.confidence,
         inlier_threshold: job.threshold,
         lo_every: 1,
         ..RansacConfig::default()
@@ -85,8 +103,11 @@ fn fit<M: Primitive>(points: &Vec<Point>, job: &Job) -> Option<Fitted<M>> {
             job,
             model: PhantomData,
         },
-        &ThresholdConsensus {
-            threshold: job.threshold,
+        &Threshold {
+            inner: ThresholdConsensus {
+                threshold: job.threshold,
+            },
+            adaptive: job.confidence > 0.0,
         },
         &mut sampler,
         points,

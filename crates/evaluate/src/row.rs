@@ -123,7 +123,7 @@ impl AppleRow {
             visible_share: truth.visible_share,
             branch_radius: branch.map(|b| b.radius),
             visible_branch_length: branch.and_then(|b| b.visible_length),
-            leaves: None,
+            leaves: truth.leaves.map(|n| n as f64),
             answerable: answerable(truth),
             timing_ms: pick.map(|p| p.timing_ms),
         }

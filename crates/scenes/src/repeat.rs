@@ -218,4 +218,17 @@ mod tests {
         assert!(moved.along.dot(&moved.up).abs() < 1e-12);
         assert_ne!(moved.along, leaf.along);
     }
+
+    #[test]
+    fn the_truth_counts_the_leaves() {
+        for density in [
+            Density::None,
+            Density::Light,
+            Density::Paper,
+            Density::Dense,
+        ] {
+            let scene = Repeat::new(density).scene("leaves", 3);
+            assert_eq!(scene.truth.apples[0].leaves, Some(density.leaves()));
+        }
+    }
 }

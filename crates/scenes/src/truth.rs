@@ -52,6 +52,9 @@ pub struct AppleTruth {
     /// Visible share of the silhouette's pixels inside the image.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub visible_share: Option<f64>,
+    /// Leaves whose middle lies within 3 radii of the apple's centre, seen or not.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub leaves: Option<usize>,
 }
 
 /// The branch of an apple: the tangent of its centre line where it is nearest.

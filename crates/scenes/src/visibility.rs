@@ -1,5 +1,6 @@
 //! What the camera sees of each apple and of its branch.
 
+use crate::apple::Apple;
 use crate::ray::Ray;
 use crate::raycast::{Raycast, extent};
 use crate::truth::{AppleTruth, BranchTruth};
@@ -75,7 +76,20 @@ pub(crate) fn look_at(
         direction: direction.map(Into::into),
         target: None,
         visible_share: Some(visible as f64 / silhouette as f64),
+        leaves: Some(leaves_near(world, apple)),
     })
+}
+
+/// Leaves within the shell in which a method looks for the branch.
+fn leaves_near(world: &World, apple: &Apple) -> usize {
+    let near = |part: &&Part| match &part.shape {
+        Shape::Leaf(leaf) => {
+            let middle = leaf.base + leaf.along.into_inner() * (0.5 * leaf.length);
+            (middle - apple.center).norm() <= SHELL_REACH * apple.radius
+        }
+        _ => false,
+    };
+    world.parts.iter().filter(near).count()
 }
 
 /// The branch whose centre line is nearest to a point.
@@ -129,7 +143,7 @@ fn visible_branch(
     let apple = &world.apples[apple];
     let reach = SHELL_REACH * apple.radius;
     let ball = Part {
-        shape: Shape::Apple(crate::Apple::sphere(apple.center, reach)),
+        shape: Shape::Apple(Apple::sphere(apple.center, reach)),
         owner: Owner::Leaf,
     };
     let Some(area) = extent(&ball, camera) else {

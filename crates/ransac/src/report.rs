@@ -22,11 +22,13 @@ pub struct Rejections {
 pub struct Counts {
     /// Samples drawn.
     pub draws: u64,
+    /// Samples of which at least one model passed all constraints.
+    pub accepted: u64,
     /// Samples from which no model came.
     pub degenerate: u64,
     /// Models scored, in full or until they were given up.
     pub hypotheses: u64,
-    /// Of these, how many could not exceed the best score of their time.
+    /// Of these, how many did not exceed the best score of their time, given up or not.
     pub pruned: u64,
     /// Refits tried.
     pub refits: u64,

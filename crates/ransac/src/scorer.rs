@@ -1,4 +1,4 @@
-use crate::{Estimator, estimator::blocks};
+use crate::{Estimator, Look, Lossless, Preemption, estimator::blocks};
 use std::ops::Range;
 
 /// How far from a model a datum may lie and still support it.
@@ -33,14 +33,28 @@ pub trait Scorer<E: Estimator>: Sync {
     /// The largest residual of an inlier of `model`.
     fn threshold(&self, model: &E::Model) -> f64;
 
-    /// The score of `model`, or `None` once it is certain not to exceed `bound`.
+    /// The most that the data of `range`, of any length, can gain: one each unless the scorer knows better.
+    fn most_gain(&self, _estimator: &E, range: Range<usize>) -> f64 {
+        range.len() as f64
+    }
+
+    /// The score of `model` where it exceeds `bound`.
+    ///
+    /// Gives up as soon as it is certain that it does not.
     fn score(&self, estimator: &E, model: &E::Model, bound: f64) -> Option<f64> {
-        let mut unseen = estimator.len();
+        let data = estimator.len();
         let mut gain = 0.0;
-        for block in blocks(estimator.len()) {
-            unseen -= block.len();
+        for block in blocks(data) {
+            let seen = block.end;
             gain += self.block_gain(estimator, model, block);
-            if gain + unseen as f64 <= bound {
+            let most_left = self.most_gain(estimator, seen..data);
+            let look = Look {
+                seen,
+                data,
+                gain,
+                most_left,
+            };
+            if Lossless::default().gives_up(&look, bound) {
                 return None;
             }
         }

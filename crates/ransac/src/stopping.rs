@@ -1,13 +1,17 @@
 /// How far a search has come: what a [`Stopping`] rule decides by.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Progress {
     /// Samples drawn, whatever became of them.
     pub draws: u64,
+    /// Of these, how many gave at least one model that passed all constraints.
+    pub accepted: u64,
     /// Models that passed all constraints and were scored.
     pub hypotheses: u64,
     /// Inliers of the best model so far; 0 while there is none.
     pub best_inliers: usize,
+    /// Score of the best model so far.
+    pub best_score: Option<f64>,
     /// How many data there are.
     pub data: usize,
     /// How many data a minimal sample has.
@@ -32,6 +36,13 @@ pub trait Stopping: Sync {
     ///
     /// It must give one sooner or later for growing `draws`, or the search never ends.
     fn reason(&self, progress: &Progress) -> Option<StopReason>;
+
+    /// How many more samples the rule expects to let pass, as far as it can tell.
+    ///
+    /// The engine sizes its rounds by it, to compute little in vain; the outcome does not depend on it.
+    fn draws_left(&self, _progress: &Progress) -> u64 {
+        u64::MAX
+    }
 }
 
 /// Ends after a fixed number of scored hypotheses.
@@ -69,6 +80,11 @@ impl Stopping for FixedCount {
         } else {
             None
         }
+    }
+
+    fn draws_left(&self, progress: &Progress) -> u64 {
+        let hypotheses = self.hypotheses.saturating_sub(progress.hypotheses);
+        hypotheses.min(self.max_draws.saturating_sub(progress.draws))
     }
 }
 

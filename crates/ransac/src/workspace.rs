@@ -1,0 +1,57 @@
+use crate::{Report, lane::Lane};
+
+/// The memory of a search, to be used again by the next one.
+///
+/// [`Ransac::run_with`](crate::Ransac::run_with) allocates nothing on the heap once a workspace has
+/// served a search of the same shape (number of data, of threads, size of a round), as far as the
+/// engine goes: an estimator that allocates in its own refit still does, and so does
+/// `rayon` when threads share the work.
+#[derive(Debug)]
+pub struct Workspace<M> {
+    pub(crate) lanes: Vec<Lane<M>>,
+    pub(crate) buffers: Buffers,
+    pub(crate) report: Option<Report<M>>,
+}
+
+/// Lists over the data that refits and reports need.
+#[derive(Debug, Default)]
+pub(crate) struct Buffers {
+    pub(crate) inliers: Vec<usize>,
+}
+
+impl<M> Workspace<M> {
+    /// An empty workspace; it grows in its first search.
+    pub fn new() -> Self {
+        Self {
+            lanes: Vec::new(),
+            buffers: Buffers::default(),
+            report: None,
+        }
+    }
+
+    /// The report of the last search, if it found a model; leaves none.
+    pub fn take_report(&mut self) -> Option<Report<M>> {
+        self.report.take()
+    }
+
+    /// Readies the memory for a search.
+    pub(crate) fn prepare(&mut self, data: usize, lanes: usize, sample_size: usize, models: usize) {
+        // The last report's list of inliers serves again.
+        if let Some(report) = self.report.take() {
+            self.buffers.inliers = report.inliers;
+        }
+        self.buffers.inliers.clear();
+        self.buffers.inliers.reserve(data);
+        self.lanes.truncate(lanes);
+        self.lanes.resize_with(lanes, Lane::new);
+        for lane in &mut self.lanes {
+            lane.prepare(sample_size, models);
+        }
+    }
+}
+
+impl<M> Default for Workspace<M> {
+    fn default() -> Self {
+        Self::new()
+    }
+}

@@ -103,6 +103,7 @@ mod scorer;
 mod search;
 mod shuffle;
 mod stopping;
+mod time_budget;
 mod workspace;
 
 pub use candidates::Candidates;
@@ -118,5 +119,6 @@ pub use report::{Counts, MAX_RULES, Rejections, Report, ResidualStatistics};
 pub use sampler::{Sampler, Uniform};
 pub use scorer::{InlierCount, Msac, Scorer, Threshold};
 pub use shuffle::Shuffle;
-pub use stopping::{FixedCount, Progress, StopReason, Stopping};
+pub use stopping::{Either, FixedCount, Progress, StopReason, Stopping, Until};
+pub use time_budget::TimeBudget;
 pub use workspace::Workspace;

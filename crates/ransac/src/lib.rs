@@ -116,7 +116,9 @@ pub use estimator::{BLOCK, Estimator};
 pub use local::{LeastSquares, LocalOptimization, NoRefit, Refiner, RefitOnce, Scored};
 pub use preemption::{Exhaustive, Look, Lossless, MAX_LOOKS, Preemption, Statistical};
 pub use report::{Counts, MAX_RULES, Rejections, Report, ResidualStatistics};
-pub use sampler::{Sampler, Uniform};
+pub use sampler::{
+    Anywhere, Local, Neighbourhood, Pairs, Partners, Prosac, Sampler, Spread, Uniform,
+};
 pub use scorer::{InlierCount, Msac, Scorer, Threshold};
 pub use shuffle::Shuffle;
 pub use stopping::{Either, FixedCount, Progress, StopReason, Stopping, Until};

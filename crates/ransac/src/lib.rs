@@ -119,7 +119,10 @@ pub use report::{Counts, MAX_RULES, Rejections, Report, ResidualStatistics};
 pub use sampler::{
     Anywhere, Local, Neighbourhood, Pairs, Partners, Prosac, Sampler, Spread, Uniform,
 };
-pub use scorer::{InlierCount, Msac, Scorer, Threshold};
+pub use scorer::{
+    Flat, InlierCount, Kernel, Marginal, MarginalScore, Msac, PerDatum, PerDatumError, Quadratic,
+    Scorer, Threshold,
+};
 pub use shuffle::Shuffle;
 pub use stopping::{Either, FixedCount, Progress, StopReason, Stopping, Until};
 pub use time_budget::TimeBudget;

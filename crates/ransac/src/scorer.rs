@@ -1,3 +1,11 @@
+//! How well a model explains the data.
+
+mod kernel;
+mod per_datum;
+
+pub use kernel::{Flat, Kernel, Marginal, Quadratic};
+pub use per_datum::{PerDatum, PerDatumError};
+
 use crate::{Estimator, Look, Lossless, Preemption, estimator::blocks};
 use std::ops::Range;
 
@@ -111,6 +119,39 @@ impl<T> Msac<T> {
 impl<E: Estimator, T: Threshold<E::Model>> Scorer<E> for Msac<T> {
     fn block_gain(&self, estimator: &E, model: &E::Model, block: Range<usize>) -> f64 {
         estimator.truncated_gain(model, block, self.threshold.for_model(model))
+    }
+
+    fn threshold(&self, model: &E::Model) -> f64 {
+        self.threshold.for_model(model)
+    }
+}
+
+/// An inlier gains what [`Marginal`] gives it: a score that cares little how large the threshold is.
+#[derive(Clone, Copy, Debug)]
+pub struct MarginalScore<T> {
+    threshold: T,
+}
+
+impl<T> MarginalScore<T> {
+    /// Data gain up to a residual of `threshold`, which belongs to the largest noise thought of.
+    pub fn within(threshold: T) -> Self {
+        Self { threshold }
+    }
+}
+
+impl<E: Estimator, T: Threshold<E::Model>> Scorer<E> for MarginalScore<T> {
+    fn block_gain(&self, estimator: &E, model: &E::Model, block: Range<usize>) -> f64 {
+        let threshold = self.threshold.for_model(model);
+        if threshold == 0.0 {
+            return estimator.count_within(model, block, threshold) as f64;
+        }
+        estimator.fold_residuals(model, block, 0.0, |gain, _, residual| {
+            if residual <= threshold {
+                gain + Marginal.gain(residual / threshold)
+            } else {
+                gain
+            }
+        })
     }
 
     fn threshold(&self, model: &E::Model) -> f64 {

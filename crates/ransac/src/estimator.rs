@@ -45,6 +45,19 @@ pub trait Estimator: Sync {
     /// `None` where they do not determine one.
     fn refit(&self, inliers: &[usize], current: &Self::Model) -> Option<Self::Model>;
 
+    /// The same with a weight for each of `inliers`, none of them negative; by default the
+    /// weights are ignored.
+    ///
+    /// [`Reweighted`](crate::Reweighted) calls it.
+    fn refit_weighted(
+        &self,
+        inliers: &[usize],
+        _weights: &[f64],
+        current: &Self::Model,
+    ) -> Option<Self::Model> {
+        self.refit(inliers, current)
+    }
+
     /// Writes the unsigned residuals of the data `block` into `out`, which is as long.
     ///
     /// NaN stands for a datum that no model explains; it is never an inlier.

@@ -113,7 +113,7 @@ pub use draws::Draws;
 pub use engine::Ransac;
 pub use error::RansacError;
 pub use estimator::{BLOCK, Estimator};
-pub use local::{LeastSquares, LocalOptimization, NoRefit, Refiner, RefitOnce, Scored};
+pub use local::{LeastSquares, LocalOptimization, NoRefit, Refiner, RefitOnce, Reweighted, Scored};
 pub use preemption::{Exhaustive, Look, Lossless, MAX_LOOKS, Preemption, Statistical};
 pub use report::{Counts, MAX_RULES, Rejections, Report, ResidualStatistics};
 pub use sampler::{
@@ -121,7 +121,7 @@ pub use sampler::{
 };
 pub use scorer::{
     Flat, InlierCount, Kernel, Marginal, MarginalScore, Msac, PerDatum, PerDatumError, Quadratic,
-    Scorer, Threshold,
+    Scorer, Threshold, Tukey,
 };
 pub use shuffle::Shuffle;
 pub use stopping::{Either, FixedCount, Progress, StopReason, Stopping, Until};

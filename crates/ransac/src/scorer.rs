@@ -3,7 +3,7 @@
 mod kernel;
 mod per_datum;
 
-pub use kernel::{Flat, Kernel, Marginal, Quadratic};
+pub use kernel::{Flat, Kernel, Marginal, Quadratic, Tukey};
 pub use per_datum::{PerDatum, PerDatumError};
 
 use crate::{Estimator, Look, Lossless, Preemption, estimator::blocks};
@@ -40,6 +40,16 @@ pub trait Scorer<E: Estimator>: Sync {
 
     /// The largest residual of an inlier of `model`.
     fn threshold(&self, model: &E::Model) -> f64;
+
+    /// The largest residual with which `datum` is an inlier of `model`.
+    fn threshold_of(&self, model: &E::Model, _datum: usize) -> f64 {
+        self.threshold(model)
+    }
+
+    /// How much a datum counts, between 0 and 1.
+    fn weight_of(&self, _datum: usize) -> f64 {
+        1.0
+    }
 
     /// The most that the data of `range`, of any length, can gain: one each unless the scorer knows better.
     fn most_gain(&self, _estimator: &E, range: Range<usize>) -> f64 {

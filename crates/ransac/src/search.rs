@@ -1,9 +1,9 @@
 use crate::lane::{Lane, Outcome, Task, Verdict};
 use crate::workspace::Buffers;
 use crate::{
-    Constraints, Counts, Estimator, LocalOptimization, Preemption, Progress, Ransac, RansacError,
-    Refiner, Rejections, Report, Sampler, Scored, Scorer, StopReason, Stopping, Workspace,
-    report::residual_statistics,
+    Confidence, Constraints, Counts, Estimator, LocalOptimization, Preemption, Progress, Ransac,
+    RansacError, Refiner, Rejections, Report, Sampler, Scored, Scorer, StopReason, Stopping,
+    Workspace, report::residual_statistics,
 };
 use std::ops::Range;
 
@@ -195,6 +195,7 @@ where
             scorer: &self.parts.scorer,
             constraints: &self.parts.constraints,
             inliers: &mut self.buffers.inliers,
+            weights: &mut self.buffers.numbers,
             counts: &mut self.counts,
         }
     }
@@ -219,11 +220,18 @@ where
                 needed,
             });
         }
+        self.progress.best_inliers = inliers.len();
         self.counts.draws = self.progress.draws;
         self.counts.accepted = self.progress.accepted;
         self.counts.hypotheses = self.progress.hypotheses;
         Ok(Report {
-            residuals: residual_statistics(self.estimator, &model, &inliers),
+            residuals: residual_statistics(
+                self.estimator,
+                &model,
+                &inliers,
+                &mut self.buffers.numbers,
+            ),
+            confidence: 1.0 - Confidence::miss_probability(&self.progress),
             model,
             inliers,
             score,

@@ -17,6 +17,8 @@ pub struct Workspace<M> {
 #[derive(Debug, Default)]
 pub(crate) struct Buffers {
     pub(crate) inliers: Vec<usize>,
+    /// One number for each inlier: its weight in a refit, its residual in a report.
+    pub(crate) numbers: Vec<f64>,
 }
 
 impl<M> Workspace<M> {
@@ -42,6 +44,8 @@ impl<M> Workspace<M> {
         }
         self.buffers.inliers.clear();
         self.buffers.inliers.reserve(data);
+        self.buffers.numbers.clear();
+        self.buffers.numbers.reserve(data);
         self.lanes.truncate(lanes);
         self.lanes.resize_with(lanes, Lane::new);
         for lane in &mut self.lanes {

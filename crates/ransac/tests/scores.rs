@@ -2,7 +2,7 @@
 
 use pomona_ransac::{
     Estimator, Exhaustive, FixedCount, Flat, InlierCount, Kernel, Lossless, Marginal,
-    MarginalScore, Msac, PerDatum, Quadratic, Ransac, Scorer,
+    MarginalScore, Msac, PerDatum, Quadratic, Ransac, Reweighted, Scorer, Tukey,
 };
 use rand_chacha::{ChaCha8Rng, rand_core::SeedableRng};
 
@@ -88,4 +88,40 @@ fn giving_up_is_lossless_with_weights_too() {
         .preemption(Lossless::default())
         .run(&data, &mut rng());
     assert_eq!(eager.unwrap(), all.unwrap());
+}
+
+#[test]
+fn reweighting_climbs_to_the_top_of_its_score() {
+    // 900 data at 10 and 100 at 10.8, whose pull the mean (10.08) feels in full.
+    let mut data = Numbers::noisy(0, 0);
+    let value = |i| if i % 10 == 0 { 10.8 } else { 10.0 };
+    data.values = (0..1000).map(value).collect();
+    let score = PerDatum::new(Tukey, vec![1.0; 1000]).unwrap();
+    let score_at = |model: f64| score.score(&data, &model, f64::NEG_INFINITY).unwrap();
+    let on_a_grid = (0..2000).map(|i| 10.0 + f64::from(i) * 1e-4);
+    let top = on_a_grid
+        .max_by(|a, b| score_at(*a).total_cmp(&score_at(*b)))
+        .unwrap();
+    assert!(top > 10.001 && top < 10.03, "{top}");
+
+    let report = Ransac::new(score.clone())
+        .stopping(FixedCount::new(20))
+        .local_optimization(Reweighted::by(Tukey::weight).rounds(100))
+        .run(&data, &mut rng())
+        .unwrap();
+    assert!((report.model - top).abs() < 1e-4, "{} {top}", report.model);
+    assert!(report.score >= score_at(top) && report.counts.refits > 2);
+}
+
+#[test]
+fn the_report_tells_median_and_confidence() {
+    let mut data = Numbers::noisy(0, 0);
+    data.values = vec![10.0, 10.0, 10.0, 10.0, 90.0, 700.0];
+    let report = Ransac::new(InlierCount::within(0.5))
+        .stopping(FixedCount::new(3))
+        .run(&data, &mut rng())
+        .unwrap();
+    assert_eq!(report.residuals.median, 0.0);
+    // 4 inliers of 6: three pairs miss with (9/15)³.
+    assert!((report.confidence - (1.0 - 0.6_f64.powi(3))).abs() < 1e-12);
 }

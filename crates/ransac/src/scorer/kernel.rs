@@ -24,6 +24,23 @@ impl Kernel for Quadratic {
     }
 }
 
+/// (1 − u²)³: Tukey's biweight (Beaton and Tukey 1974, doi 10.1080/00401706.1974.10489171).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Tukey;
+
+impl Tukey {
+    /// Weight in a refit of a datum whose residual is `fraction` of its threshold: (1 − u²)².
+    pub fn weight(fraction: f64) -> f64 {
+        (1.0 - fraction * fraction).powi(2)
+    }
+}
+
+impl Kernel for Tukey {
+    fn gain(&self, fraction: f64) -> f64 {
+        (1.0 - fraction * fraction).powi(3)
+    }
+}
+
 /// A gain averaged over all noise levels up to a largest one: the loss of MAGSAC++.
 ///
 /// The noise's σ is unknown and uniform up to σₘₐₓ, residuals at a given σ are those of three
@@ -40,6 +57,15 @@ pub struct Marginal;
 
 /// Half the 99 % quantile of χ² with three degrees of freedom.
 const HALF_QUANTILE: f64 = 11.344_866_730_144_373 / 2.0;
+
+impl Marginal {
+    /// Weight in a refit of a datum whose residual is `fraction` of its threshold, 1 for none:
+    /// exp(−K u²) − exp(−K), scaled.
+    pub fn weight(fraction: f64) -> f64 {
+        let floor = (-HALF_QUANTILE).exp();
+        ((-HALF_QUANTILE * fraction * fraction).exp() - floor) / (1.0 - floor)
+    }
+}
 
 impl Kernel for Marginal {
     fn gain(&self, fraction: f64) -> f64 {
@@ -66,8 +92,23 @@ mod tests {
     fn gains_fall_from_one() {
         falls_from_one(&Flat);
         falls_from_one(&Quadratic);
+        falls_from_one(&Tukey);
         falls_from_one(&Marginal);
         assert_eq!(Marginal.gain(1.0), 0.0);
+    }
+
+    #[test]
+    fn a_weight_is_the_slope_of_the_gain_over_the_residual() {
+        fn check(kernel: &impl Kernel, weight: fn(f64) -> f64) {
+            let slope = |u: f64| (kernel.gain(u - 1e-5) - kernel.gain(u + 1e-5)) / 2e-5 / u;
+            let scale = slope(0.5) / weight(0.5);
+            for u in [0.1, 0.3, 0.7, 0.9] {
+                assert!((slope(u) / scale - weight(u)).abs() < 1e-6, "{u}");
+            }
+        }
+        check(&Tukey, Tukey::weight);
+        check(&Marginal, Marginal::weight);
+        check(&Quadratic, |_| 1.0);
     }
 
     #[test]

@@ -110,6 +110,10 @@ impl<K: Kernel> PerDatum<K> {
         })
     }
 
+    fn weight(&self, datum: usize) -> f64 {
+        self.weights.get(datum).copied().unwrap_or(1.0)
+    }
+
     fn is_inlier(&self, datum: usize, residual: f64) -> bool {
         self.thresholds.get(datum).is_some_and(|&t| residual <= t)
     }
@@ -127,14 +131,21 @@ impl<E: Estimator, K: Kernel> Scorer<E> for PerDatum<K> {
             } else {
                 0.0
             };
-            let weight = self.weights.get(datum).copied().unwrap_or(1.0);
-            gain + weight * self.kernel.gain(fraction)
+            gain + self.weight(datum) * self.kernel.gain(fraction)
         })
     }
 
     /// The largest of all thresholds.
     fn threshold(&self, _: &E::Model) -> f64 {
         self.thresholds.iter().copied().fold(0.0, f64::max)
+    }
+
+    fn threshold_of(&self, _: &E::Model, datum: usize) -> f64 {
+        self.thresholds.get(datum).copied().unwrap_or(f64::NAN)
+    }
+
+    fn weight_of(&self, datum: usize) -> f64 {
+        self.weight(datum)
     }
 
     fn most_gain(&self, _: &E, range: Range<usize>) -> f64 {

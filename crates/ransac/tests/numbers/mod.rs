@@ -50,6 +50,13 @@ impl Estimator for Numbers {
         (!inliers.is_empty()).then(|| sum / inliers.len() as f64)
     }
 
+    fn refit_weighted(&self, inliers: &[usize], weights: &[f64], _: &f64) -> Option<f64> {
+        let pairs = || inliers.iter().zip(weights);
+        let sum: f64 = pairs().map(|(&i, w)| w * self.values[i]).sum();
+        let total: f64 = pairs().map(|(_, w)| w).sum();
+        (total > 0.0).then(|| sum / total)
+    }
+
     fn residuals(&self, model: &f64, block: Range<usize>, out: &mut [f64]) {
         self.scored.fetch_add(block.len(), Ordering::Relaxed);
         for (r, i) in out.iter_mut().zip(block) {

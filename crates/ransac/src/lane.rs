@@ -99,7 +99,15 @@ impl<M> Lane<M> {
         }
     }
 
-    pub(crate) fn prepare(&mut self, sample_size: usize, models: usize) {
+    pub(crate) fn prepare(&mut self, sample_size: usize, models: usize, round: usize) {
+        self.outcomes.clear();
+        self.hypotheses.clear();
+        self.live.clear();
+        // A round of absurd length grows its lists when it gets that far.
+        let iterations = round.min(1024);
+        self.outcomes.reserve(iterations);
+        self.hypotheses.reserve(iterations * models);
+        self.live.reserve(iterations * models);
         self.sample.resize(sample_size, 0);
         self.candidates.set_limit(models);
     }

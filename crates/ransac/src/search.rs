@@ -38,8 +38,7 @@ where
         workspace: &'a mut Workspace<E::Model>,
         seed: u64,
     ) -> Self {
-        let threads = parts.settings.threads;
-        workspace.prepare(estimator.len(), threads, E::SAMPLE_SIZE, E::MAX_MODELS);
+        workspace.prepare::<E>(estimator.len(), parts.settings);
         let rules = Constraints::<E>::len(&parts.constraints);
         let mut counts = Counts {
             rules: rules.min(crate::MAX_RULES),

@@ -1,4 +1,4 @@
-use crate::{Report, lane::Lane};
+use crate::{Estimator, Report, engine::Settings, lane::Lane};
 
 /// The memory of a search, to be used again by the next one.
 ///
@@ -37,7 +37,7 @@ impl<M> Workspace<M> {
     }
 
     /// Readies the memory for a search.
-    pub(crate) fn prepare(&mut self, data: usize, lanes: usize, sample_size: usize, models: usize) {
+    pub(crate) fn prepare<E: Estimator<Model = M>>(&mut self, data: usize, settings: Settings) {
         // The last report's list of inliers serves again.
         if let Some(report) = self.report.take() {
             self.buffers.inliers = report.inliers;
@@ -46,10 +46,9 @@ impl<M> Workspace<M> {
         self.buffers.inliers.reserve(data);
         self.buffers.numbers.clear();
         self.buffers.numbers.reserve(data);
-        self.lanes.truncate(lanes);
-        self.lanes.resize_with(lanes, Lane::new);
+        self.lanes.resize_with(settings.threads, Lane::new);
         for lane in &mut self.lanes {
-            lane.prepare(sample_size, models);
+            lane.prepare(E::SAMPLE_SIZE, E::MAX_MODELS, settings.round);
         }
     }
 }

@@ -24,6 +24,13 @@ impl<M> Candidates<M> {
         self.models.clear();
     }
 
+    /// Makes it a buffer for at most `limit` models.
+    pub(crate) fn set_limit(&mut self, limit: usize) {
+        self.models.clear();
+        self.models.reserve(limit);
+        self.limit = limit;
+    }
+
     pub(crate) fn drain(&mut self) -> impl Iterator<Item = M> + '_ {
         self.models.drain(..)
     }

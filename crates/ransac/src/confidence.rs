@@ -7,11 +7,20 @@ use crate::{Progress, StopReason, Stopping};
 /// miss every such one with probability (1 − ε)ᵏ. The product is the exact
 /// combinatorial form; the usual (I/n)ᵐ draws too few where inliers are few
 /// (Schönberger et al. 2025, arXiv 2503.07829).
+///
+/// # Under constraints
+///
+/// Every sample drawn counts in k, refused or not: right where a sample of inliers alone always obeys
+/// the constraints, as it does where these only state what is known of the model. Where
+/// noise can throw a clean sample's model out of the constraints (a small sphere through
+/// four neighbouring points), [`accepted_only`](Self::accepted_only) counts in the acceptance
+/// rate a: clean samples are taken to be refused as often as any other, and (1 − ε)ᵃᵏ is left.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Confidence {
     failure: f64,
     min_draws: u64,
     max_draws: u64,
+    accepted_only: bool,
 }
 
 impl Confidence {
@@ -29,6 +38,7 @@ impl Confidence {
             failure,
             min_draws: 0,
             max_draws,
+            accepted_only: false,
         }
     }
 
@@ -38,25 +48,66 @@ impl Confidence {
         Self { min_draws, ..self }
     }
 
+    /// The same, with no sample counted that the constraints refused or that was degenerate.
+    ///
+    /// `max_draws` still counts them all.
+    #[must_use]
+    pub fn accepted_only(self) -> Self {
+        Self {
+            accepted_only: true,
+            ..self
+        }
+    }
+
     /// Probability that none of `draws` samples held inliers alone.
     pub fn miss_probability(progress: &Progress) -> f64 {
-        let (inliers, data) = (progress.best_inliers as f64, progress.data as f64);
-        let clean: f64 = (0..progress.sample_size)
-            .map(|j| ((inliers - j as f64) / (data - j as f64)).max(0.0))
-            .product();
-        (progress.draws as f64 * (-clean).ln_1p()).exp()
+        miss_probability(progress, progress.draws)
     }
+
+    fn counted(&self, progress: &Progress) -> u64 {
+        if self.accepted_only {
+            progress.accepted
+        } else {
+            progress.draws
+        }
+    }
+}
+
+/// ln(1 − ε), ε being the probability of a sample of inliers alone.
+fn log_unclean(progress: &Progress) -> f64 {
+    let (inliers, data) = (progress.best_inliers as f64, progress.data as f64);
+    let clean: f64 = (0..progress.sample_size)
+        .map(|j| ((inliers - j as f64) / (data - j as f64)).max(0.0))
+        .product();
+    (-clean).ln_1p()
+}
+
+fn miss_probability(progress: &Progress, samples: u64) -> f64 {
+    if samples == 0 {
+        return 1.0;
+    }
+    (samples as f64 * log_unclean(progress)).exp()
 }
 
 impl Stopping for Confidence {
     fn reason(&self, progress: &Progress) -> Option<StopReason> {
-        if progress.draws >= self.min_draws && Self::miss_probability(progress) <= self.failure {
+        let miss = miss_probability(progress, self.counted(progress));
+        if progress.draws >= self.min_draws && miss <= self.failure {
             Some(StopReason::Confident)
         } else if progress.draws >= self.max_draws {
             Some(StopReason::DrawsExhausted)
         } else {
             None
         }
+    }
+
+    fn draws_left(&self, progress: &Progress) -> u64 {
+        // A division by −0 (no inliers yet) gives infinity, which saturates.
+        let needed = (self.failure.ln() / log_unclean(progress)).ceil() as u64;
+        let left = needed.saturating_sub(self.counted(progress));
+        let least = self.min_draws.saturating_sub(progress.draws);
+        let most = self.max_draws.saturating_sub(progress.draws);
+        left.max(least).min(most)
     }
 }
 
@@ -102,5 +153,29 @@ mod tests {
             Confidence::new(f64::NAN, 10).reason(&progress(9, 5, 6, 2)),
             None
         );
+    }
+
+    #[test]
+    fn refused_samples_may_be_left_out() {
+        let rule = Confidence::new(0.99, 1000).accepted_only();
+        let at = |draws, accepted| Progress {
+            accepted,
+            ..progress(draws, 4, 6, 2)
+        };
+        assert_eq!(rule.reason(&at(100, 0)), None);
+        assert_eq!(rule.reason(&at(100, 9)), None);
+        assert_eq!(rule.reason(&at(100, 10)), Some(StopReason::Confident));
+        assert_eq!(rule.reason(&at(1000, 9)), Some(StopReason::DrawsExhausted));
+    }
+
+    #[test]
+    fn the_samples_left_are_those_until_the_end() {
+        let rule = Confidence::new(0.99, 1000);
+        assert_eq!(rule.draws_left(&progress(3, 4, 6, 2)), 7);
+        assert_eq!(rule.min_draws(50).draws_left(&progress(3, 4, 6, 2)), 47);
+        assert_eq!(rule.draws_left(&progress(3, 0, 6, 2)), 997);
+        assert_eq!(rule.draws_left(&progress(3, 6, 6, 2)), 0);
+        let endless = Confidence::new(1.0, 1000);
+        assert_eq!(endless.draws_left(&progress(3, 4, 6, 2)), 997);
     }
 }

@@ -45,6 +45,19 @@ pub trait Estimator: Sync {
     /// `None` where they do not determine one.
     fn refit(&self, inliers: &[usize], current: &Self::Model) -> Option<Self::Model>;
 
+    /// The same with a weight for each of `inliers`, none of them negative; by default the
+    /// weights are ignored.
+    ///
+    /// [`Reweighted`](crate::Reweighted) calls it.
+    fn refit_weighted(
+        &self,
+        inliers: &[usize],
+        _weights: &[f64],
+        current: &Self::Model,
+    ) -> Option<Self::Model> {
+        self.refit(inliers, current)
+    }
+
     /// Writes the unsigned residuals of the data `block` into `out`, which is as long.
     ///
     /// NaN stands for a datum that no model explains; it is never an inlier.
@@ -58,7 +71,12 @@ pub trait Estimator: Sync {
     }
 
     /// Σ max(0, 1 − (residual/threshold)²) over `block`, which has at most [`BLOCK`] data.
+    ///
+    /// For a threshold of zero this is the number of residuals that are zero.
     fn truncated_gain(&self, model: &Self::Model, block: Range<usize>, threshold: f64) -> f64 {
+        if threshold == 0.0 {
+            return self.count_within(model, block, threshold) as f64;
+        }
         self.fold_residuals(model, block, 0.0, |gain, _, r| {
             if r <= threshold {
                 gain + (1.0 - (r / threshold).powi(2))
@@ -102,11 +120,21 @@ pub trait Estimator: Sync {
     }
 }
 
-/// The data `0..len` as blocks of at most [`BLOCK`].
+/// How many data the first block has: few, so that a hopeless model is given up early.
+pub(crate) const FIRST_BLOCK: usize = 128;
+
+/// The data `0..len` in blocks that end at 128, 256, 512, 1024, 2048, 3072, ...
+///
+/// Gains are summed in this partition and no other, whatever the rule for giving up
+/// and however the work is shared, so that a score has the same bits everywhere.
 pub(crate) fn blocks(len: usize) -> impl Iterator<Item = Range<usize>> {
-    (0..len)
-        .step_by(BLOCK)
-        .map(move |start| start..(start + BLOCK).min(len))
+    let mut start = 0;
+    std::iter::from_fn(move || {
+        let end = (start + start.clamp(FIRST_BLOCK, BLOCK)).min(len);
+        let block = start..end;
+        start = end;
+        (!block.is_empty()).then_some(block)
+    })
 }
 
 #[cfg(test)]
@@ -115,10 +143,12 @@ mod tests {
 
     #[test]
     fn blocks_cover_everything_once() {
-        for len in [0, 1, BLOCK - 1, BLOCK, BLOCK + 1, 3 * BLOCK + 7] {
+        for len in [0, 1, 128, 129, BLOCK - 1, BLOCK, BLOCK + 1, 3 * BLOCK + 7] {
             let all: Vec<usize> = blocks(len).flatten().collect();
             assert_eq!(all, (0..len).collect::<Vec<_>>());
             assert!(blocks(len).all(|b| b.len() <= BLOCK));
         }
+        let ends: Vec<usize> = blocks(2500).map(|b| b.end).collect();
+        assert_eq!(ends, [128, 256, 512, 1024, 2048, 2500]);
     }
 }

@@ -63,27 +63,41 @@
 //!
 //! - An [`Estimator`] fits models to a minimal sample, refits a model to its
 //!   inliers, and measures the residuals of one *block* of data at a time.
-//! - A [`Sampler`] picks the sample; a [`Constraint`] may refuse the sample,
-//!   or the model before anything is scored, and is asked again after every refit.
-//! - A [`Scorer`] turns the residuals of a block into a gain of at most one per datum.
-//!   That ceiling is what lets the engine give up on a model early, without ever
-//!   changing the outcome.
-//! - A [`LocalOptimization`] refits; a [`Stopping`] rule ends the search.
+//! - A [`Sampler`] picks the sample ([`Uniform`], [`Prosac`], [`Local`], [`Pairs`]); a
+//!   [`Constraint`] may refuse the sample, or the model before anything is scored, and is asked
+//!   again after every refit.
+//! - A [`Scorer`] turns the residuals of a block into a gain of at most one per datum:
+//!   [`InlierCount`], [`Msac`], [`MarginalScore`], or [`PerDatum`] with thresholds and weights of each
+//!   datum's own.
+//! - A [`Preemption`] gives a model up before all data are seen: [`Lossless`], which never changes
+//!   the outcome, or [`Statistical`], whose probability of changing it is a parameter.
+//! - A [`LocalOptimization`] refits: [`RefitOnce`], [`LeastSquares`], [`Reweighted`].
+//! - A [`Stopping`] rule ends the search: [`FixedCount`], [`Confidence`], [`TimeBudget`], [`Until`], or
+//!   one [`or`](Stopping::or) another.
 //! - The [`Report`] is computed from the final model alone, so that its score,
 //!   inliers and residuals belong together.
 //!
+//! A [`Workspace`] is the memory of a search: with one that is used again,
+//! [`Ransac::run_with`] allocates nothing.
+//!
 //! Randomness is a counter: iteration `i` draws from a generator keyed by
 //! (seed, `i`) and by nothing else, where the seed is one number taken from
-//! the caller's generator. The outcome of a search is the same whichever order
-//! its iterations are computed in.
+//! the caller's generator. Iterations are computed in rounds and merged in order, so the
+//! report is the same, bit for bit, for any size of a round and any number of threads.
 //!
 //! # Not here
 //!
 //! Geometry, point clouds, files. Primitives in space (sphere, line, plane,
 //! cylinder) fitted with this engine are the crate `pomona-fit`.
 //!
+//! # Features
+//!
+//! - `rayon`, off by default: `Ransac::threads` and `Ransac::parallel` share the work among the
+//!   threads of a `rayon` pool.
+//!
 //! # References
 //!
+//! Each method's source stands at its type. Those that the whole rests on:
 //! Fischler and Bolles 1981, "Random sample consensus", doi 10.1145/358669.358692.
 //! Torr and Zisserman 2000, "MLESAC", doi 10.1006/cviu.1999.0832 (the score [`Msac`]).
 
@@ -94,11 +108,17 @@ mod draws;
 mod engine;
 mod error;
 mod estimator;
+mod lane;
 mod local;
+mod preemption;
 mod report;
 mod sampler;
 mod scorer;
+mod search;
+mod shuffle;
 mod stopping;
+mod time_budget;
+mod workspace;
 
 pub use candidates::Candidates;
 pub use confidence::Confidence;
@@ -107,8 +127,17 @@ pub use draws::Draws;
 pub use engine::Ransac;
 pub use error::RansacError;
 pub use estimator::{BLOCK, Estimator};
-pub use local::{LeastSquares, LocalOptimization, NoRefit, Refiner, RefitOnce, Scored};
+pub use local::{LeastSquares, LocalOptimization, NoRefit, Refiner, RefitOnce, Reweighted, Scored};
+pub use preemption::{Exhaustive, Look, Lossless, MAX_LOOKS, Preemption, Statistical};
 pub use report::{Counts, MAX_RULES, Rejections, Report, ResidualStatistics};
-pub use sampler::{Sampler, Uniform};
-pub use scorer::{InlierCount, Msac, Scorer, Threshold};
-pub use stopping::{FixedCount, Progress, StopReason, Stopping};
+pub use sampler::{
+    Anywhere, Local, Neighbourhood, Pairs, Partners, Prosac, Sampler, Spread, Uniform,
+};
+pub use scorer::{
+    Flat, InlierCount, Kernel, Marginal, MarginalScore, Msac, PerDatum, PerDatumError, Quadratic,
+    Scorer, Threshold, Tukey,
+};
+pub use shuffle::Shuffle;
+pub use stopping::{Either, FixedCount, Progress, StopReason, Stopping, Until};
+pub use time_budget::TimeBudget;
+pub use workspace::Workspace;

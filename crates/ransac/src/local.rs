@@ -1,4 +1,10 @@
-use crate::{Constraints, Counts, Estimator, Scorer};
+//! What is done with a hypothesis once it is the best.
+
+mod reweighted;
+
+pub use reweighted::Reweighted;
+
+use crate::{Constraints, Counts, Estimator, Scorer, report::for_each_residual};
 
 /// A model with its score.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,6 +21,7 @@ pub struct Refiner<'a, E: Estimator, S, C> {
     pub(crate) scorer: &'a S,
     pub(crate) constraints: &'a C,
     pub(crate) inliers: &'a mut Vec<usize>,
+    pub(crate) weights: &'a mut Vec<f64>,
     pub(crate) counts: &'a mut Counts,
 }
 
@@ -23,8 +30,42 @@ impl<E: Estimator, S: Scorer<E>, C: Constraints<E>> Refiner<'_, E, S, C> {
     /// determine one or a constraint refuses it.
     pub fn refit(&mut self, model: &E::Model) -> Option<E::Model> {
         self.scorer.select(self.estimator, model, self.inliers);
+        let refitted = self.estimator.refit(self.inliers, model);
+        self.allow(refitted)
+    }
+
+    /// The model refitted to its own inliers, each with the weight `weigh(residual/threshold)`
+    /// times its weight in the score; `None` as for [`refit`](Self::refit).
+    pub fn refit_weighted(
+        &mut self,
+        model: &E::Model,
+        weigh: impl Fn(f64) -> f64,
+    ) -> Option<E::Model> {
+        let Self {
+            estimator,
+            scorer,
+            inliers,
+            weights,
+            ..
+        } = self;
+        scorer.select(estimator, model, inliers);
+        weights.clear();
+        for_each_residual(*estimator, model, inliers, |datum, residual| {
+            let fraction = if residual > 0.0 {
+                residual / scorer.threshold_of(model, datum)
+            } else {
+                0.0
+            };
+            weights.push(scorer.weight_of(datum) * weigh(fraction));
+        });
+        let refitted = estimator.refit_weighted(inliers, weights, model);
+        self.allow(refitted)
+    }
+
+    /// Counts a refit, and asks the constraints again.
+    fn allow(&mut self, refitted: Option<E::Model>) -> Option<E::Model> {
         self.counts.refits += 1;
-        let refitted = self.estimator.refit(self.inliers, model)?;
+        let refitted = refitted?;
         if let Some(rule) = self.constraints.refusing_model(self.estimator, &refitted) {
             self.counts.rejection(rule).refits += 1;
             return None;

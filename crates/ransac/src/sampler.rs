@@ -1,3 +1,15 @@
+//! Which data make up a minimal sample.
+
+mod neighbours;
+mod pairs;
+mod prosac;
+mod uniform;
+
+pub use neighbours::{Anywhere, Local, Neighbourhood, Spread};
+pub use pairs::{Pairs, Partners};
+pub use prosac::Prosac;
+pub use uniform::Uniform;
+
 use crate::{Draws, Estimator};
 
 /// Picks the data of a minimal sample.
@@ -16,29 +28,20 @@ pub trait Sampler<E: Estimator>: Sync {
     ) -> bool;
 }
 
-/// Every sample is equally likely.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Uniform;
-
-impl<E: Estimator> Sampler<E> for Uniform {
-    fn sample(&self, estimator: &E, _: u64, draws: &mut Draws, sample: &mut [usize]) -> bool {
-        let len = estimator.len();
-        if len < sample.len() {
-            return false;
-        }
-        // Floyd's algorithm (Bentley and Floyd 1987, doi 10.1145/30401.315746):
-        // one draw for each datum, however few there are to choose from.
-        for k in 0..sample.len() {
-            let last = len - sample.len() + k;
-            let pick = draws.below(last + 1);
-            sample[k] = if sample[..k].contains(&pick) {
-                last
-            } else {
-                pick
-            };
-        }
-        true
+/// Fills `out` with distinct numbers of `0..end`, each set equally likely; `false` where there are too few.
+///
+/// Floyd's algorithm (Bentley and Floyd 1987, doi 10.1145/30401.315746):
+/// one draw for each number, however few there are to choose from.
+fn distinct(draws: &mut Draws, end: usize, out: &mut [usize]) -> bool {
+    if end < out.len() {
+        return false;
     }
+    for k in 0..out.len() {
+        let last = end - out.len() + k;
+        let pick = draws.below(last + 1);
+        out[k] = if out[..k].contains(&pick) { last } else { pick };
+    }
+    true
 }
 
 #[cfg(test)]
@@ -47,7 +50,8 @@ mod tests {
     use crate::Candidates;
     use std::ops::Range;
 
-    struct Numbers(usize);
+    /// Data of which nothing is known but how many there are.
+    pub(super) struct Numbers(pub(super) usize);
 
     impl Estimator for Numbers {
         type Model = ();
@@ -60,42 +64,5 @@ mod tests {
             None
         }
         fn residuals(&self, (): &(), _: Range<usize>, _: &mut [f64]) {}
-    }
-
-    #[test]
-    fn samples_are_distinct_and_every_one_occurs() {
-        // 20 triples out of 6; each is missed with probability (19/20)^2000 < 1e-44.
-        let mut seen = std::collections::BTreeSet::new();
-        for i in 0..2000 {
-            let mut s = [0; 3];
-            assert!(Uniform.sample(&Numbers(6), i, &mut Draws::new(3, i), &mut s));
-            s.sort_unstable();
-            assert!(s[0] < s[1] && s[1] < s[2] && s[2] < 6);
-            seen.insert(s);
-        }
-        assert_eq!(seen.len(), 20);
-    }
-
-    #[test]
-    fn every_datum_is_equally_likely() {
-        // 4000 trials of 3 in 8: each datum 1500 ± 31 (one sigma); five sigma fail once in 1e6.
-        let mut counts = [0_i32; 8];
-        for i in 0..4000 {
-            let mut s = [0; 3];
-            Uniform.sample(&Numbers(8), i, &mut Draws::new(9, i), &mut s);
-            for k in s {
-                counts[k] += 1;
-            }
-        }
-        assert!(counts.iter().all(|c| (c - 1500).abs() < 155), "{counts:?}");
-    }
-
-    #[test]
-    fn too_few_data_give_no_sample() {
-        assert!(!Uniform.sample(&Numbers(2), 0, &mut Draws::new(0, 0), &mut [0; 3]));
-        let mut all = [0; 3];
-        assert!(Uniform.sample(&Numbers(3), 0, &mut Draws::new(0, 0), &mut all));
-        all.sort_unstable();
-        assert_eq!(all, [0, 1, 2]);
     }
 }

@@ -1,4 +1,12 @@
-use crate::{Estimator, estimator::blocks};
+//! How well a model explains the data.
+
+mod kernel;
+mod per_datum;
+
+pub use kernel::{Flat, Kernel, Marginal, Quadratic, Tukey};
+pub use per_datum::{PerDatum, PerDatumError};
+
+use crate::{Estimator, Look, Lossless, Preemption, estimator::blocks};
 use std::ops::Range;
 
 /// How far from a model a datum may lie and still support it.
@@ -33,14 +41,38 @@ pub trait Scorer<E: Estimator>: Sync {
     /// The largest residual of an inlier of `model`.
     fn threshold(&self, model: &E::Model) -> f64;
 
-    /// The score of `model`, or `None` once it is certain not to exceed `bound`.
+    /// The largest residual with which `datum` is an inlier of `model`.
+    fn threshold_of(&self, model: &E::Model, _datum: usize) -> f64 {
+        self.threshold(model)
+    }
+
+    /// How much a datum counts, between 0 and 1.
+    fn weight_of(&self, _datum: usize) -> f64 {
+        1.0
+    }
+
+    /// The most that the data of `range`, of any length, can gain: one each unless the scorer knows better.
+    fn most_gain(&self, _estimator: &E, range: Range<usize>) -> f64 {
+        range.len() as f64
+    }
+
+    /// The score of `model` where it exceeds `bound`.
+    ///
+    /// Gives up as soon as it is certain that it does not.
     fn score(&self, estimator: &E, model: &E::Model, bound: f64) -> Option<f64> {
-        let mut unseen = estimator.len();
+        let data = estimator.len();
         let mut gain = 0.0;
-        for block in blocks(estimator.len()) {
-            unseen -= block.len();
+        for block in blocks(data) {
+            let seen = block.end;
             gain += self.block_gain(estimator, model, block);
-            if gain + unseen as f64 <= bound {
+            let most_left = self.most_gain(estimator, seen..data);
+            let look = Look {
+                seen,
+                data,
+                gain,
+                most_left,
+            };
+            if Lossless::default().gives_up(&look, bound) {
                 return None;
             }
         }
@@ -97,6 +129,39 @@ impl<T> Msac<T> {
 impl<E: Estimator, T: Threshold<E::Model>> Scorer<E> for Msac<T> {
     fn block_gain(&self, estimator: &E, model: &E::Model, block: Range<usize>) -> f64 {
         estimator.truncated_gain(model, block, self.threshold.for_model(model))
+    }
+
+    fn threshold(&self, model: &E::Model) -> f64 {
+        self.threshold.for_model(model)
+    }
+}
+
+/// An inlier gains what [`Marginal`] gives it: a score that cares little how large the threshold is.
+#[derive(Clone, Copy, Debug)]
+pub struct MarginalScore<T> {
+    threshold: T,
+}
+
+impl<T> MarginalScore<T> {
+    /// Data gain up to a residual of `threshold`, which belongs to the largest noise thought of.
+    pub fn within(threshold: T) -> Self {
+        Self { threshold }
+    }
+}
+
+impl<E: Estimator, T: Threshold<E::Model>> Scorer<E> for MarginalScore<T> {
+    fn block_gain(&self, estimator: &E, model: &E::Model, block: Range<usize>) -> f64 {
+        let threshold = self.threshold.for_model(model);
+        if threshold == 0.0 {
+            return estimator.count_within(model, block, threshold) as f64;
+        }
+        estimator.fold_residuals(model, block, 0.0, |gain, _, residual| {
+            if residual <= threshold {
+                gain + Marginal.gain(residual / threshold)
+            } else {
+                gain
+            }
+        })
     }
 
     fn threshold(&self, model: &E::Model) -> f64 {

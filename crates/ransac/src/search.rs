@@ -1,0 +1,284 @@
+use crate::lane::{Lane, Outcome, Task, Verdict};
+use crate::workspace::Buffers;
+use crate::{
+    Confidence, Constraints, Counts, Estimator, LocalOptimization, Preemption, Progress, Ransac,
+    RansacError, Refiner, Rejections, Report, Sampler, Scored, Scorer, StopReason, Stopping,
+    Workspace, report::residual_statistics,
+};
+use std::ops::Range;
+
+/// The state of one run.
+///
+/// Iterations are computed in rounds and merged in order: what happens in a round depends on no
+/// other iteration of it, and everything that depends on order happens in the merge.
+pub(crate) struct Search<'a, E: Estimator, S, P, C, L, T, B> {
+    parts: &'a Ransac<S, P, C, L, T, B>,
+    estimator: &'a E,
+    lanes: &'a mut Vec<Lane<E::Model>>,
+    buffers: &'a mut Buffers,
+    seed: u64,
+    counts: Counts,
+    progress: Progress,
+    best: Option<Scored<E::Model>>,
+}
+
+impl<'a, E, S, P, C, L, T, B> Search<'a, E, S, P, C, L, T, B>
+where
+    E: Estimator,
+    P: Sampler<E>,
+    S: Scorer<E>,
+    C: Constraints<E>,
+    L: LocalOptimization<E>,
+    T: Stopping,
+    B: Preemption,
+{
+    pub(crate) fn new(
+        parts: &'a Ransac<S, P, C, L, T, B>,
+        estimator: &'a E,
+        workspace: &'a mut Workspace<E::Model>,
+        seed: u64,
+    ) -> Self {
+        workspace.prepare::<E>(estimator.len(), parts.settings);
+        let rules = Constraints::<E>::len(&parts.constraints);
+        let mut counts = Counts {
+            rules: rules.min(crate::MAX_RULES),
+            ..Counts::default()
+        };
+        for rule in 0..counts.rules {
+            let constraint = Constraints::<E>::name(&parts.constraints, rule);
+            counts.rejections[rule] = Rejections {
+                constraint,
+                ..Rejections::default()
+            };
+        }
+        Self {
+            parts,
+            estimator,
+            lanes: &mut workspace.lanes,
+            buffers: &mut workspace.buffers,
+            seed,
+            counts,
+            progress: Progress {
+                data: estimator.len(),
+                sample_size: E::SAMPLE_SIZE,
+                ..Progress::default()
+            },
+            best: None,
+        }
+    }
+
+    /// Searches, and reports.
+    pub(crate) fn report(mut self) -> Result<Report<E::Model>, RansacError> {
+        if self.estimator.len() < E::SAMPLE_SIZE {
+            return Err(RansacError::TooFewData {
+                needed: E::SAMPLE_SIZE,
+                available: self.estimator.len(),
+            });
+        }
+        if self.parts.stopping.reason(&self.progress).is_some() {
+            return Err(RansacError::NothingDrawn);
+        }
+        let stopped = loop {
+            if let Some(reason) = self.round() {
+                break reason;
+            }
+        };
+        self.finish(stopped)
+    }
+
+    fn best_score(&self) -> f64 {
+        self.best
+            .as_ref()
+            .map_or(f64::NEG_INFINITY, |best| best.score)
+    }
+
+    fn task(&self) -> Task<'a, E, S, P, C, B> {
+        Task {
+            estimator: self.estimator,
+            scorer: &self.parts.scorer,
+            sampler: &self.parts.sampler,
+            constraints: &self.parts.constraints,
+            preemption: &self.parts.preemption,
+            seed: self.seed,
+            bound: self.best_score(),
+        }
+    }
+
+    /// How many iterations the next round computes: an eighth of those so far, so that
+    /// few are computed in vain when the rule ends the search in the middle of a round, and
+    /// no more than the rule still wants.
+    fn round_size(&self) -> u64 {
+        let settings = &self.parts.settings;
+        let largest = settings.round as u64 * settings.threads as u64;
+        let grown = (self.progress.draws / 8).max(settings.threads as u64);
+        let wanted = self.parts.stopping.draws_left(&self.progress);
+        grown.min(largest).min(wanted).max(1)
+    }
+
+    /// Computes a round and merges it; the reason to stop, if there is one.
+    fn round(&mut self) -> Option<StopReason> {
+        let task = self.task();
+        let start = self.progress.draws;
+        let size = self.round_size();
+        let share = size.div_ceil(self.lanes.len() as u64);
+        let shares = move |lane: usize| -> Range<u64> {
+            let first = (lane as u64 * share).min(size);
+            start + first..start + (first + share).min(size)
+        };
+        work(self.lanes, &task, shares);
+
+        let mut lanes = std::mem::take(self.lanes);
+        let stopped = lanes.iter_mut().find_map(|lane| self.merge(&task, lane));
+        *self.lanes = lanes;
+        stopped
+    }
+
+    /// Takes in what a lane computed, one iteration after the other.
+    fn merge(
+        &mut self,
+        task: &Task<'_, E, S, P, C, B>,
+        lane: &mut Lane<E::Model>,
+    ) -> Option<StopReason> {
+        let Lane {
+            outcomes,
+            hypotheses,
+            ..
+        } = lane;
+        let mut hypotheses = hypotheses.drain(..);
+        for &outcome in outcomes.iter() {
+            match outcome {
+                Outcome::Degenerate => self.counts.degenerate += 1,
+                Outcome::SampleRefused(rule) => self.counts.rejection(rule).samples += 1,
+                Outcome::Fitted(models) => {
+                    let before = self.progress.hypotheses;
+                    for hypothesis in hypotheses.by_ref().take(models) {
+                        if let Verdict::Refused(rule) = hypothesis.verdict {
+                            self.counts.rejection(rule).models += 1;
+                            continue;
+                        }
+                        self.progress.hypotheses += 1;
+                        if hypothesis.exceeds(self.best_score(), task) {
+                            let (model, score) = (hypothesis.model, hypothesis.gain);
+                            self.promote(Scored { model, score });
+                        } else {
+                            self.counts.pruned += 1;
+                        }
+                    }
+                    self.progress.accepted += u64::from(self.progress.hypotheses > before);
+                }
+            }
+            self.progress.draws += 1;
+            if let Some(reason) = self.parts.stopping.reason(&self.progress) {
+                return Some(reason);
+            }
+        }
+        None
+    }
+
+    /// Makes a model the best one, after local optimisation.
+    fn promote(&mut self, model: Scored<E::Model>) {
+        let local = &self.parts.local;
+        let best = local.improve(&mut self.refiner(), model);
+        let inliers = &mut self.buffers.inliers;
+        self.parts
+            .scorer
+            .select(self.estimator, &best.model, inliers);
+        self.progress.best_inliers = inliers.len();
+        self.progress.best_score = Some(best.score);
+        self.best = Some(best);
+    }
+
+    fn refiner(&mut self) -> Refiner<'_, E, S, C> {
+        Refiner {
+            estimator: self.estimator,
+            scorer: &self.parts.scorer,
+            constraints: &self.parts.constraints,
+            inliers: &mut self.buffers.inliers,
+            weights: &mut self.buffers.numbers,
+            counts: &mut self.counts,
+        }
+    }
+
+    /// The last refit, and the report of what came out of it.
+    fn finish(mut self, stopped: StopReason) -> Result<Report<E::Model>, RansacError> {
+        let needed = self.parts.settings.min_inliers.max(E::SAMPLE_SIZE);
+        let Some(best) = self.best.take() else {
+            return Err(self.no_model(needed));
+        };
+        let local = &self.parts.local;
+        let Scored { model, score } = local.finish(&mut self.refiner(), best);
+        self.parts
+            .scorer
+            .select(self.estimator, &model, &mut self.buffers.inliers);
+        let inliers = std::mem::take(&mut self.buffers.inliers);
+        if inliers.len() < needed {
+            let found = inliers.len();
+            self.buffers.inliers = inliers;
+            return Err(RansacError::NoConsensus {
+                inliers: found,
+                needed,
+            });
+        }
+        self.progress.best_inliers = inliers.len();
+        self.counts.draws = self.progress.draws;
+        self.counts.accepted = self.progress.accepted;
+        self.counts.hypotheses = self.progress.hypotheses;
+        Ok(Report {
+            residuals: residual_statistics(
+                self.estimator,
+                &model,
+                &inliers,
+                &mut self.buffers.numbers,
+            ),
+            confidence: 1.0 - Confidence::miss_probability(&self.progress),
+            model,
+            inliers,
+            score,
+            stopped,
+            counts: self.counts,
+        })
+    }
+
+    fn no_model(&self, needed: usize) -> RansacError {
+        let draws = self.progress.draws;
+        let most = self
+            .counts
+            .rejections()
+            .iter()
+            .max_by_key(|r| r.samples + r.models);
+        match most {
+            _ if self.progress.hypotheses > 0 => RansacError::NoConsensus { inliers: 0, needed },
+            Some(rule) if rule.samples + rule.models > 0 => RansacError::ConstraintNeverMet {
+                draws,
+                constraint: rule.constraint,
+            },
+            _ => RansacError::AllDegenerate { draws },
+        }
+    }
+}
+
+/// Computes a round: each lane its share, on threads of their own where there are several.
+fn work<E, S, P, C, B>(
+    lanes: &mut [Lane<E::Model>],
+    task: &Task<'_, E, S, P, C, B>,
+    shares: impl Fn(usize) -> Range<u64> + Sync,
+) where
+    E: Estimator,
+    P: Sampler<E>,
+    S: Scorer<E>,
+    C: Constraints<E>,
+    B: Preemption,
+{
+    #[cfg(feature = "rayon")]
+    if lanes.len() > 1 {
+        use rayon::prelude::*;
+        lanes
+            .par_iter_mut()
+            .enumerate()
+            .for_each(|(lane, memory)| memory.work(task, shares(lane)));
+        return;
+    }
+    for (lane, memory) in lanes.iter_mut().enumerate() {
+        memory.work(task, shares(lane));
+    }
+}

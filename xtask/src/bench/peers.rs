@@ -39,8 +39,21 @@ pub(super) fn all(ours: &Path, folder: &Path, install: bool) -> Vec<Engine> {
         program,
     };
     let rust = |name| rust(name, folder, install);
+    let ours = |pruning: &str| Ok(vec![ours.into(), "serve".into(), pruning.into()]);
     vec![
-        engine("pomona", "", ALL, Ok(vec![ours.into(), "serve".into()])),
+        engine(
+            "pomona",
+            "loses the best hypothesis once in a hundred searches at most",
+            ALL,
+            ours("statistical"),
+        ),
+        engine("pomona, lossless", "", ALL, ours("lossless")),
+        engine(
+            "pomona, no pruning",
+            "every model scored on every point",
+            ALL,
+            ours("never"),
+        ),
         engine("PCL -O3 native", "", ALL, pcl(folder, true)),
         engine("PCL as packaged", "", ALL, pcl(folder, false)),
         engine(
@@ -98,7 +111,9 @@ fn pcl(folder: &Path, native: bool) -> Result<Vec<OsString>, String> {
         .arg(root().join("xtask/peers/pcl/fit.cpp"))
         .arg("-o")
         .arg(&program);
-    for path in [headers, include.join("eigen3"), include] {
+    // The compiler's own folder must keep its place in the order of search.
+    let own = (include != Path::new("/usr/include")).then(|| include.clone());
+    for path in [headers, include.join("eigen3")].into_iter().chain(own) {
         compiler.arg("-isystem").arg(path);
     }
     for path in libraries(&prefix) {

@@ -2,7 +2,8 @@
 //!
 //! ```text
 //! peer_bench export FOLDER SUITE=COUNT...   clouds and their truth from the first scenes of suites
-//! peer_bench serve                          answers fitting jobs, as xtask/peers/README.md says
+//! peer_bench serve PRUNING                  answers fitting jobs, as xtask/peers/README.md says;
+//!                                           PRUNING is statistical, lossless or never
 //! ```
 
 mod export;
@@ -29,12 +30,15 @@ fn run(arguments: &[String]) -> Result<(), Box<dyn Error>> {
                 suites.iter().map(|s| export::Choice::parse(s)).collect();
             export::export(folder.as_ref(), &suites?)
         }
-        [command] if command == "serve" => {
+        [command, pruning] if command == "serve" => {
+            let pruning = job::Pruning::named(pruning)
+                .ok_or("give `serve` one of statistical, lossless, never")?;
+            let mut server = job::Server::new(pruning);
             for line in std::io::stdin().lines() {
-                println!("{}", job::answer(&line?)?);
+                println!("{}", server.answer(&line?)?);
             }
             Ok(())
         }
-        _ => Err("give `export FOLDER SUITE=COUNT...` or `serve`".into()),
+        _ => Err("give `export FOLDER SUITE=COUNT...` or `serve PRUNING`".into()),
     }
 }

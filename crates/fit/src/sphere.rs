@@ -2,6 +2,7 @@ mod estimator;
 mod geometric;
 mod least_squares;
 mod minimal;
+mod normal;
 
 pub use estimator::{SphereEstimator, SphereRefit};
 pub use geometric::sphere_geometric;

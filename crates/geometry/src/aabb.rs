@@ -11,12 +11,14 @@ pub struct Aabb {
 
 impl Aabb {
     /// A box between two corners, or `None` where they are inverted or not finite.
+    #[inline]
     pub fn new(min: Point3<f64>, max: Point3<f64>) -> Option<Self> {
         let valid = (0..3).all(|i| min[i].is_finite() && max[i].is_finite() && min[i] <= max[i]);
         valid.then_some(Self { min, max })
     }
 
     /// The smallest box that holds all finite points of `points`; `None` if there is none.
+    #[inline]
     pub fn around(points: impl IntoIterator<Item = Point3<f64>>) -> Option<Self> {
         let mut finite = points
             .into_iter()
@@ -35,11 +37,13 @@ impl Aabb {
     }
 
     /// Whether the box holds `point`; never for a point that is not finite.
+    #[inline]
     pub fn contains(&self, point: &Point3<f64>) -> bool {
         (0..3).all(|i| self.min[i] <= point[i] && point[i] <= self.max[i])
     }
 
     /// Its centre.
+    #[inline]
     pub fn center(&self) -> Point3<f64> {
         nalgebra::center(&self.min, &self.max)
     }

@@ -5,6 +5,7 @@ use nalgebra::Vector3;
 /// It is taken as atan2(‖a × b‖, a · b), which keeps its accuracy near 0 and π
 /// where the arc cosine of the normalised dot product loses half the digits
 /// (Kahan 2006, "How Futile are Mindless Assessments of Roundoff", section 12).
+#[inline]
 pub fn angle_between(a: &Vector3<f64>, b: &Vector3<f64>) -> Option<f64> {
     let (scale_a, scale_b) = (a.amax(), b.amax());
     let usable = |v: &Vector3<f64>, s: f64| s > 0.0 && v.iter().all(|c| c.is_finite());
@@ -17,6 +18,7 @@ pub fn angle_between(a: &Vector3<f64>, b: &Vector3<f64>) -> Option<f64> {
 
 /// Angle between two axes (vectors without a sign), in `0..=π/2` radians;
 /// `None` as for [`angle_between`].
+#[inline]
 pub fn angle_between_axes(a: &Vector3<f64>, b: &Vector3<f64>) -> Option<f64> {
     angle_between(a, b).map(|angle| angle.min(std::f64::consts::PI - angle))
 }

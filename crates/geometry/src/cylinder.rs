@@ -12,11 +12,13 @@ pub struct Cylinder {
 
 impl Cylinder {
     /// A cylinder, or `None` unless the radius is finite and positive.
+    #[inline]
     pub fn new(axis: Line, radius: f64) -> Option<Self> {
         (radius.is_finite() && radius > 0.0).then_some(Self { axis, radius })
     }
 
     /// Distance from the surface, negative inside.
+    #[inline]
     pub fn signed_distance(&self, point: &Point3<f64>) -> f64 {
         self.axis.distance(point) - self.radius
     }

@@ -12,6 +12,7 @@ pub struct Line {
 impl Line {
     /// The line through `point` along `direction`, or `None` where the
     /// direction has no length or anything is not finite.
+    #[inline]
     pub fn new(point: Point3<f64>, direction: Vector3<f64>) -> Option<Self> {
         if !point.iter().chain(direction.iter()).all(|c| c.is_finite()) {
             return None;
@@ -26,16 +27,19 @@ impl Line {
     }
 
     /// The line through two points, or `None` where they coincide or are not finite.
+    #[inline]
     pub fn through(a: Point3<f64>, b: Point3<f64>) -> Option<Self> {
         Self::new(a, b - a)
     }
 
     /// Position of the foot of `point` along the direction, measured from `self.point`.
+    #[inline]
     pub fn parameter(&self, point: &Point3<f64>) -> f64 {
         (point - self.point).dot(&self.direction)
     }
 
     /// The point at `parameter` along the direction from `self.point`.
+    #[inline]
     pub fn at(&self, parameter: f64) -> Point3<f64> {
         self.point + self.direction.into_inner() * parameter
     }
@@ -45,11 +49,13 @@ impl Line {
     /// With O the point, A the line's point and e its unit direction, the foot
     /// is C = A + ((O − A)·e) e, so that OC · e = 0 (Gao et al. 2022, Eq. 10,
     /// doi 10.3390/agriculture12081170).
+    #[inline]
     pub fn foot(&self, point: &Point3<f64>) -> Point3<f64> {
         self.at(self.parameter(point))
     }
 
     /// Distance of `point` from the line.
+    #[inline]
     pub fn distance(&self, point: &Point3<f64>) -> f64 {
         (point - self.point).cross(&self.direction).norm()
     }
@@ -57,6 +63,7 @@ impl Line {
     /// The points of `self` and of `other` that are nearest to each other.
     ///
     /// `None` for parallel lines (angle under 1e-9 rad), which have no such pair of their own.
+    #[inline]
     pub fn closest_points(&self, other: &Self) -> Option<(Point3<f64>, Point3<f64>)> {
         let u = self.direction.into_inner();
         let v = other.direction.into_inner();

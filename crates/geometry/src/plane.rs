@@ -12,6 +12,7 @@ pub struct Plane {
 impl Plane {
     /// The plane through `point` across `normal`, or `None` where the normal
     /// has no length or anything is not finite.
+    #[inline]
     pub fn new(point: Point3<f64>, normal: Vector3<f64>) -> Option<Self> {
         if !point.iter().chain(normal.iter()).all(|c| c.is_finite()) || normal.amax() == 0.0 {
             return None;
@@ -25,6 +26,7 @@ impl Plane {
 
     /// The plane through three points, or `None` where they lie on one line
     /// (the sine of the angle at `a` under 1e-9) or are not finite.
+    #[inline]
     pub fn through(a: Point3<f64>, b: Point3<f64>, c: Point3<f64>) -> Option<Self> {
         let (u, v) = (b - a, c - a);
         let normal = u.cross(&v);
@@ -36,11 +38,13 @@ impl Plane {
     }
 
     /// Distance from the plane, positive on the normal's side.
+    #[inline]
     pub fn signed_distance(&self, point: &Point3<f64>) -> f64 {
         self.normal.dot(&point.coords) - self.offset
     }
 
     /// The plane's point nearest to `point`.
+    #[inline]
     pub fn project(&self, point: &Point3<f64>) -> Point3<f64> {
         point - self.normal.into_inner() * self.signed_distance(point)
     }

@@ -11,17 +11,20 @@ pub struct Segment {
 
 impl Segment {
     /// A segment, or `None` where an end is not finite.
+    #[inline]
     pub fn new(start: Point3<f64>, end: Point3<f64>) -> Option<Self> {
         let valid = start.iter().chain(end.iter()).all(|c| c.is_finite());
         valid.then_some(Self { start, end })
     }
 
     /// Length.
+    #[inline]
     pub fn length(&self) -> f64 {
         (self.end - self.start).norm()
     }
 
     /// The fraction in `0..=1` of the way from start to end at which `point` is nearest.
+    #[inline]
     pub fn fraction(&self, point: &Point3<f64>) -> f64 {
         let along = self.end - self.start;
         let squared_length = along.norm_squared();
@@ -32,11 +35,13 @@ impl Segment {
     }
 
     /// The segment's point nearest to `point`.
+    #[inline]
     pub fn closest_point(&self, point: &Point3<f64>) -> Point3<f64> {
         self.start + (self.end - self.start) * self.fraction(point)
     }
 
     /// Distance of `point` from the segment.
+    #[inline]
     pub fn distance(&self, point: &Point3<f64>) -> f64 {
         (point - self.closest_point(point)).norm()
     }

@@ -11,17 +11,20 @@ pub struct Sphere {
 
 impl Sphere {
     /// A sphere, or `None` unless all numbers are finite and the radius is positive.
+    #[inline]
     pub fn new(center: Point3<f64>, radius: f64) -> Option<Self> {
         let valid = center.iter().all(|c| c.is_finite()) && radius.is_finite() && radius > 0.0;
         valid.then_some(Self { center, radius })
     }
 
     /// Distance from the surface, negative inside.
+    #[inline]
     pub fn signed_distance(&self, point: &Point3<f64>) -> f64 {
         (point - self.center).norm() - self.radius
     }
 
     /// The surface point nearest to `point`, or `None` at the centre, where every one is.
+    #[inline]
     pub fn project(&self, point: &Point3<f64>) -> Option<Point3<f64>> {
         let offset = point - self.center;
         let norm = offset.norm();

@@ -31,9 +31,7 @@ struct Tube<T> {
 impl<T: Coordinate> Tube<T> {
     /// A threshold that is negative or NaN holds nothing.
     fn new(line: &Line, threshold: f64) -> Self {
-        let e = line.direction.into_inner();
-        let u = e.cross(&Vector3::ith(e.iamin(), 1.0)).normalize();
-        let v = e.cross(&u);
+        let [u, v] = across(&line.direction);
         let coordinates = |w: Vector3<f64>| [w.x, w.y, w.z].map(T::from_f64);
         let square = if threshold >= 0.0 {
             threshold * threshold
@@ -55,6 +53,19 @@ impl<T: Coordinate> Tube<T> {
         let b = wx * self.v[0] + wy * self.v[1] + wz * self.v[2];
         a * a + b * b <= self.squared_threshold
     }
+}
+
+/// Two unit vectors across a third and each other, without a square root (Duff et al. 2017,
+/// "Building an orthonormal basis, revisited", JCGT 6(1)).
+#[inline]
+fn across(e: &Vector3<f64>) -> [Vector3<f64>; 2] {
+    let sign = 1.0_f64.copysign(e.z);
+    let a = -1.0 / (sign + e.z);
+    let b = e.x * e.y * a;
+    [
+        Vector3::new(1.0 + sign * e.x * e.x * a, sign * b, -sign * e.x),
+        Vector3::new(b, sign + e.y * e.y * a, -e.y),
+    ]
 }
 
 impl<T: Coordinate> Estimator for LineEstimator<'_, T> {

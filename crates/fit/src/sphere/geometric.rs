@@ -1,4 +1,5 @@
-use nalgebra::{Matrix4, Point3, Vector4};
+use super::normal::NormalEquations;
+use nalgebra::{Point3, Vector4};
 use pomona_geometry::Sphere;
 
 /// The sphere with the least sum of squared distances of the points from its surface:
@@ -6,9 +7,8 @@ use pomona_geometry::Sphere;
 ///
 /// Levenberg–Marquardt on the centre and radius (Ahn, Rauh and Warnecke 2001, "Least-squares
 /// orthogonal distances fitting of circle, sphere, ellipse, hyperbola, and parabola",
-/// doi 10.1016/S0031-3203(00)00152-7, section 2). The sum never grows from one step to the next, so
-/// the result is at least as good as `start`. Points at the centre have no direction
-/// and are left out of a step.
+/// doi 10.1016/S0031-3203(00)00152-7, section 2), until a step moves less than 10⁻¹¹ of the radius. The
+/// sum never grows from one step to the next, so the result is at least as good as `start`.
 ///
 /// `None` for fewer than four points and where anything is not finite.
 #[expect(
@@ -20,50 +20,49 @@ pub fn sphere_geometric(
     start: &Sphere,
 ) -> Option<Sphere> {
     const MAX_STEPS: usize = 100;
+    const CONVERGED: f64 = 1e-11;
     if points.len() < 4 {
         return None;
     }
+    let equations =
+        |sphere: &Sphere| NormalEquations::new(points.clone().map(|p| (p, 1.0)), sphere);
     let mut sphere = *start;
-    let mut objective = sum_of_squares(points.clone(), &sphere);
-    if !objective.is_finite() {
+    let mut current = equations(&sphere);
+    if !current.objective.is_finite() {
         return None;
     }
     let mut damping = 1e-6;
     for _ in 0..MAX_STEPS {
-        let (normal, gradient) = normal_equations(points.clone(), &sphere);
-        let mut improved = None;
-        // Damping grows until a step goes down; at 1e12 no step is left to take.
-        while damping < 1e12 {
-            let mut damped = normal;
-            for k in 0..4 {
-                damped[(k, k)] += damping * normal[(k, k)].max(f64::MIN_POSITIVE);
-            }
-            let candidate = damped
-                .cholesky()
-                .and_then(|c| stepped(&sphere, &c.solve(&gradient)));
-            if let Some(candidate) = candidate {
-                let sum = sum_of_squares(points.clone(), &candidate);
-                if sum <= objective {
-                    improved = Some((candidate, sum));
-                    break;
+        let mut improved = false;
+        let mut moved = f64::INFINITY;
+        // Damping grows until a step goes down, or is too short to matter.
+        while !improved && damping < 1e12 && moved > CONVERGED * sphere.radius {
+            if let Some(step) = damped_step(&current, damping) {
+                moved = step.amax();
+                if let Some(candidate) = stepped(&sphere, &step) {
+                    let next = equations(&candidate);
+                    improved = next.objective <= current.objective;
+                    if improved {
+                        (sphere, current) = (candidate, next);
+                    }
                 }
             }
-            damping *= 10.0;
+            damping *= if improved { 0.1 } else { 10.0 };
         }
-        let Some((candidate, sum)) = improved else {
-            break;
-        };
-        let moved = (candidate.center - sphere.center)
-            .norm()
-            .max((candidate.radius - sphere.radius).abs());
-        sphere = candidate;
-        objective = sum;
-        damping = (damping / 10.0).max(1e-12);
-        if moved <= 1e-14 * (sphere.radius + sphere.center.coords.norm()) {
+        damping = damping.max(1e-12);
+        if !improved || moved <= CONVERGED * sphere.radius {
             break;
         }
     }
     Some(sphere)
+}
+
+fn damped_step(equations: &NormalEquations, damping: f64) -> Option<Vector4<f64>> {
+    let mut damped = equations.matrix;
+    for k in 0..4 {
+        damped[(k, k)] += damping * equations.matrix[(k, k)].max(f64::MIN_POSITIVE);
+    }
+    Some(damped.cholesky()?.solve(&equations.gradient))
 }
 
 fn stepped(sphere: &Sphere, step: &Vector4<f64>) -> Option<Sphere> {
@@ -71,31 +70,6 @@ fn stepped(sphere: &Sphere, step: &Vector4<f64>) -> Option<Sphere> {
         sphere.center + step.fixed_rows::<3>(0),
         sphere.radius + step[3],
     )
-}
-
-fn sum_of_squares(points: impl Iterator<Item = Point3<f64>>, sphere: &Sphere) -> f64 {
-    points.map(|p| sphere.signed_distance(&p).powi(2)).sum()
-}
-
-/// `JᵀJ` and `−Jᵀf` of the residuals f = ‖p − c‖ − r, whose derivatives are −(p − c)/‖p − c‖ and −1.
-fn normal_equations(
-    points: impl Iterator<Item = Point3<f64>>,
-    sphere: &Sphere,
-) -> (Matrix4<f64>, Vector4<f64>) {
-    let mut normal = Matrix4::zeros();
-    let mut gradient = Vector4::zeros();
-    for p in points {
-        let offset = p - sphere.center;
-        let norm = offset.norm();
-        if norm == 0.0 {
-            continue;
-        }
-        let u = offset / norm;
-        let row = Vector4::new(u.x, u.y, u.z, 1.0);
-        normal += row * row.transpose();
-        gradient += row * (norm - sphere.radius);
-    }
-    (normal, gradient)
 }
 
 #[cfg(test)]

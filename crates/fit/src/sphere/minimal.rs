@@ -11,6 +11,7 @@ use pomona_geometry::Sphere;
 /// The points count as coplanar where the volume they span is less than 1e-9 of
 /// |q₁||q₂||q₃|. (Eq. 1 of Gao et al. 2022, doi 10.3390/agriculture12081170, solved for
 /// four points.)
+#[inline]
 pub fn sphere_through(points: [Point3<f64>; 4]) -> Option<Sphere> {
     let [q1, q2, q3] = [1, 2, 3].map(|i| points[i] - points[0]);
     let (s1, s2, s3) = (q1.norm_squared(), q2.norm_squared(), q3.norm_squared());

@@ -79,6 +79,14 @@ pub trait Scorer<E: Estimator>: Sync {
         (gain > bound).then_some(gain)
     }
 
+    /// How many inliers `model` has.
+    fn count(&self, estimator: &E, model: &E::Model) -> usize {
+        let threshold = self.threshold(model);
+        blocks(estimator.len())
+            .map(|block| estimator.count_within(model, block, threshold))
+            .sum()
+    }
+
     /// Replaces `out` by the inliers of `model`, in ascending order.
     fn select(&self, estimator: &E, model: &E::Model, out: &mut Vec<usize>) {
         out.clear();

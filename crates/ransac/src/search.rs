@@ -179,11 +179,7 @@ where
     fn promote(&mut self, model: Scored<E::Model>) {
         let local = &self.parts.local;
         let best = local.improve(&mut self.refiner(), model);
-        let inliers = &mut self.buffers.inliers;
-        self.parts
-            .scorer
-            .select(self.estimator, &best.model, inliers);
-        self.progress.best_inliers = inliers.len();
+        self.progress.best_inliers = self.parts.scorer.count(self.estimator, &best.model);
         self.progress.best_score = Some(best.score);
         self.best = Some(best);
     }

@@ -228,7 +228,7 @@ impl Stop {
     fn new(hypotheses: f64, confidence: f64) -> Self {
         let count = FixedCount::new(hypotheses as u64);
         if confidence > 0.0 {
-            Self::Adaptive(count, Confidence::new(confidence, u64::MAX))
+            Self::Adaptive(count, Confidence::new(confidence, u64::MAX).accepted_only())
         } else {
             Self::Count(count)
         }

@@ -1,14 +1,14 @@
 use super::normal::NormalEquations;
-use nalgebra::{Point3, Vector4};
+use nalgebra::{Matrix4, Point3, Vector4};
 use pomona_geometry::Sphere;
 
 /// The sphere with the least sum of squared distances of the points from its surface:
 /// minimises Σ (‖p − c‖ − r)², starting from `start`.
 ///
-/// Levenberg–Marquardt on the centre and radius (Ahn, Rauh and Warnecke 2001, "Least-squares
+/// Newton's method on the centre and radius, damped as by Levenberg and Marquardt (residuals as in Ahn, Rauh and Warnecke 2001, "Least-squares
 /// orthogonal distances fitting of circle, sphere, ellipse, hyperbola, and parabola",
-/// doi 10.1016/S0031-3203(00)00152-7, section 2), until a step moves less than 10⁻¹¹ of the radius. The
-/// sum never grows from one step to the next, so the result is at least as good as `start`.
+/// doi 10.1016/S0031-3203(00)00152-7, section 2; on a small cap Gauss–Newton steps, without the second derivatives,
+/// take three times as many), until a step moves less than 10⁻⁷ of the radius, which leaves the square of that. The sum never grows from one step to the next, so the result is at least as good as `start`.
 ///
 /// `None` for fewer than four points and where anything is not finite.
 #[expect(
@@ -20,7 +20,7 @@ pub fn sphere_geometric(
     start: &Sphere,
 ) -> Option<Sphere> {
     const MAX_STEPS: usize = 100;
-    const CONVERGED: f64 = 1e-11;
+    const CONVERGED: f64 = 1e-7;
     if points.len() < 4 {
         return None;
     }
@@ -57,12 +57,19 @@ pub fn sphere_geometric(
     Some(sphere)
 }
 
+/// A step by the second derivatives where these curve upwards, and by their positive part otherwise.
 fn damped_step(equations: &NormalEquations, damping: f64) -> Option<Vector4<f64>> {
-    let mut damped = equations.matrix;
-    for k in 0..4 {
-        damped[(k, k)] += damping * equations.matrix[(k, k)].max(f64::MIN_POSITIVE);
-    }
-    Some(damped.cholesky()?.solve(&equations.gradient))
+    let NormalEquations {
+        matrix, curvature, ..
+    } = equations;
+    let damp = |mut m: Matrix4<f64>| {
+        for k in 0..4 {
+            m[(k, k)] += damping * matrix[(k, k)].max(f64::MIN_POSITIVE);
+        }
+        m.cholesky()
+    };
+    let damped = damp(matrix + curvature).or_else(|| damp(*matrix))?;
+    Some(damped.solve(&equations.gradient))
 }
 
 fn stepped(sphere: &Sphere, step: &Vector4<f64>) -> Option<Sphere> {

@@ -9,13 +9,17 @@ const CHUNK: usize = 256;
 /// Sums kept apart so that they can be added side by side. Their number is part of the result: it says in
 /// which order is added, on every machine.
 const LANES: usize = 4;
-/// Upper half of Σ w u uᵀ, Σ w u, Σ w, Σ w u f, Σ w f and Σ w f².
-const SUMS: usize = 15;
+/// Upper half of Σ w u uᵀ, Σ w u, Σ w, Σ w u f, Σ w f, Σ w f²; then Σ w g, and the upper half of Σ w g u uᵀ,
+/// where g = f/‖p − c‖.
+const SUMS: usize = 22;
 
 /// `JᵀWJ`, `−JᵀWf` and `fᵀWf` of the residuals f = ‖p − c‖ − r, whose derivatives are −(p − c)/‖p − c‖ and −1.
 pub(super) struct NormalEquations {
     pub(super) matrix: Matrix4<f64>,
     pub(super) gradient: Vector4<f64>,
+    /// What makes of `matrix` half the second derivatives of the objective: Σ w f ∇²f, where
+    /// ∇²f = (1 − u uᵀ)/‖p − c‖ for the centre.
+    pub(super) curvature: Matrix4<f64>,
     /// Sum of the weighted squared residuals.
     pub(super) objective: f64,
 }
@@ -38,8 +42,9 @@ impl NormalEquations {
             chunk.weight[chunk.filled..].fill(0.0);
             arch.dispatch(Pass(&chunk, sphere.radius, &mut sums));
         }
-        let [xx, xy, xz, yy, yz, zz, x, y, z, w, xf, yf, zf, f, ff] =
-            sums.map(|lane| (lane[0] + lane[1]) + (lane[2] + lane[3]));
+        let sums = sums.map(|lane| (lane[0] + lane[1]) + (lane[2] + lane[3]));
+        let [xx, xy, xz, yy, yz, zz, x, y, z, w, ..] = sums;
+        let [.., xf, yf, zf, f, ff, g, gxx, gxy, gxz, gyy, gyz, gzz] = sums;
         #[rustfmt::skip]
         let matrix = Matrix4::new(
             xx, xy, xz, x,
@@ -47,9 +52,17 @@ impl NormalEquations {
             xz, yz, zz, z,
             x,  y,  z,  w,
         );
+        #[rustfmt::skip]
+        let curvature = Matrix4::new(
+            g - gxx, -gxy,    -gxz,    0.0,
+            -gxy,    g - gyy, -gyz,    0.0,
+            -gxz,    -gyz,    g - gzz, 0.0,
+            0.0,     0.0,     0.0,     0.0,
+        );
         Self {
             matrix,
             gradient: Vector4::new(xf, yf, zf, f),
+            curvature,
             objective: ff,
         }
     }
@@ -105,6 +118,8 @@ impl WithSimd for Pass<'_> {
                 let inverse = if norm > 0.0 { 1.0 / norm } else { 0.0 };
                 let (x, y, z, f) = (x * inverse, y * inverse, z * inverse, norm - radius);
                 let (wx, wy, wz, wf) = (w * x, w * y, w * z, w * f);
+                let wg = wf * inverse;
+                let (gx, gy) = (wg * x, wg * y);
                 let terms = [
                     wx * x,
                     wx * y,
@@ -121,6 +136,13 @@ impl WithSimd for Pass<'_> {
                     wz * f,
                     wf,
                     wf * f,
+                    wg,
+                    gx * x,
+                    gx * y,
+                    gx * z,
+                    gy * y,
+                    gy * z,
+                    wg * z * z,
                 ];
                 for (sum, term) in sums.iter_mut().zip(terms) {
                     sum[lane] += term;
@@ -148,6 +170,7 @@ mod tests {
             .collect();
         let sums = NormalEquations::new(points.iter().copied(), &sphere);
         let (mut matrix, mut gradient, mut objective) = (Matrix4::zeros(), Vector4::zeros(), 0.0);
+        let mut curvature = nalgebra::Matrix3::zeros();
         for (p, w) in &points {
             let u = (p - sphere.center).normalize();
             let f = sphere.signed_distance(p);
@@ -155,9 +178,12 @@ mod tests {
             matrix += row * row.transpose() * *w;
             gradient += row * (f * w);
             objective += f * f * w;
+            curvature += (nalgebra::Matrix3::identity() - u * u.transpose())
+                * (w * f / (p - sphere.center).norm());
         }
         assert!((sums.matrix - matrix).amax() < 1e-9);
         assert!((sums.gradient - gradient).amax() < 1e-12);
+        assert!((sums.curvature.fixed_view::<3, 3>(0, 0) - curvature).amax() < 1e-9);
         assert!((sums.objective - objective).abs() < 1e-12);
 
         let mut chunk = Chunk::new();

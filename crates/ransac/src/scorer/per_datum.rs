@@ -159,6 +159,16 @@ impl<E: Estimator, K: Kernel> Scorer<E> for PerDatum<K> {
         }
     }
 
+    fn count(&self, estimator: &E, model: &E::Model) -> usize {
+        blocks(estimator.len())
+            .map(|block| {
+                estimator.fold_residuals(model, block, 0, |count, datum, residual| {
+                    count + usize::from(self.is_inlier(datum, residual))
+                })
+            })
+            .sum()
+    }
+
     fn select(&self, estimator: &E, model: &E::Model, out: &mut Vec<usize>) {
         out.clear();
         for block in blocks(estimator.len()) {

@@ -75,7 +75,10 @@ impl<E: Estimator<Model = Line>> Constraint<E> for DistanceWindow {
     }
 
     fn allows_model(&self, _: &E, line: &Line) -> bool {
-        (self.min..=self.max).contains(&line.distance(&self.point))
+        let square = (self.point - line.point)
+            .cross(&line.direction)
+            .norm_squared();
+        (self.min * self.min..=self.max * self.max).contains(&square)
     }
 }
 

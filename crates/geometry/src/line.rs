@@ -14,15 +14,15 @@ impl Line {
     /// direction has no length or anything is not finite.
     #[inline]
     pub fn new(point: Point3<f64>, direction: Vector3<f64>) -> Option<Self> {
-        if !point.iter().chain(direction.iter()).all(|c| c.is_finite()) {
+        if !(point.x.is_finite() && point.y.is_finite() && point.z.is_finite()) {
             return None;
         }
-        let scale = direction.amax();
-        if scale == 0.0 {
-            return None;
-        }
-        // Scaled first: squares of tiny or huge components would leave the range of f64.
-        let direction = Unit::new_normalize(direction / scale);
+        let square = direction.norm_squared();
+        let direction = if (1e-200..1e200).contains(&square) {
+            Unit::new_unchecked(direction / square.sqrt())
+        } else {
+            normalized(direction)?
+        };
         Some(Self { point, direction })
     }
 
@@ -77,6 +77,14 @@ impl Line {
         let t = offset.cross(&u).dot(&normal) / squared_sine;
         Some((self.at(s), other.at(t)))
     }
+}
+
+/// A direction whose squares may leave the range of f64; `None` where it has no length or is not finite.
+#[cold]
+fn normalized(direction: Vector3<f64>) -> Option<Unit<Vector3<f64>>> {
+    let scale = direction.amax();
+    let valid = direction.iter().all(|c| c.is_finite()) && scale > 0.0;
+    valid.then(|| Unit::new_normalize(direction / scale))
 }
 
 #[cfg(test)]

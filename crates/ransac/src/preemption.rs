@@ -147,6 +147,17 @@ fn divergence(q: f64, p: f64) -> f64 {
     term(q, p) + term(1.0 - q, 1.0 - p)
 }
 
+/// Whether n kl(q, p) is at least `needed`.
+///
+/// Two bounds settle most cases without a logarithm: (q−p)²/(2 max(q, p)) ≤ kl(q, p) ≤ (q−p)²/(p(1−p)).
+fn reaches(n: f64, q: f64, p: f64, needed: f64) -> bool {
+    let square = n * (q - p) * (q - p);
+    if square < needed * p * (1.0 - p) {
+        return false;
+    }
+    square >= needed * 2.0 * q.max(p) || n * divergence(q, p) >= needed
+}
+
 impl Preemption for Statistical {
     fn next_look(&self, seen: usize, _: usize) -> usize {
         seen.saturating_mul(2).max(FIRST_BLOCK)
@@ -165,7 +176,7 @@ impl Preemption for Statistical {
             return false;
         }
         let needed = f64::from(Self::looks(look.data)).ln() - self.log_error;
-        seen * divergence(q, p) >= needed || unseen * divergence(r, p) >= needed
+        reaches(seen, q, p, needed) || reaches(unseen, r, p, needed)
     }
 }
 
@@ -196,6 +207,23 @@ mod tests {
         assert_eq!(divergence(0.3, 0.3), 0.0);
         assert!((divergence(0.0, 0.5) - 2.0_f64.ln()).abs() < 1e-15);
         assert!((divergence(1.0, 0.25) - 4.0_f64.ln()).abs() < 1e-15);
+    }
+
+    #[test]
+    fn what_settles_a_case_quickly_agrees_with_the_divergence() {
+        for (q, p) in (0..=100).flat_map(|q| (1..100).map(move |p| (f64::from(q), f64::from(p)))) {
+            let (q, p) = (q / 100.0, p / 100.0);
+            for needed in [0.1, 1.0, 3.0, 10.0] {
+                let exact = 300.0 * divergence(q, p);
+                if (exact - needed).abs() > 1e-9 {
+                    assert_eq!(
+                        reaches(300.0, q, p, needed),
+                        exact >= needed,
+                        "{q} {p} {needed}"
+                    );
+                }
+            }
+        }
     }
 
     #[test]

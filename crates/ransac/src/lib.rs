@@ -75,7 +75,8 @@
 //! - A [`Stopping`] rule ends the search: [`FixedCount`], [`Confidence`], [`TimeBudget`], [`Until`], or
 //!   one [`or`](Stopping::or) another.
 //! - The [`Report`] is computed from the final model alone, so that its score,
-//!   inliers and residuals belong together.
+//!   inliers and residuals belong together. Where the estimator gives derivatives
+//!   ([`Estimator::linearize`]), it tells the noise and the model's [`Covariance`].
 //!
 //! A [`Workspace`] is the memory of a search: with one that is used again,
 //! [`Ransac::run_with`] allocates nothing.
@@ -104,12 +105,15 @@
 mod candidates;
 mod confidence;
 mod constraint;
+mod covariance;
 mod draws;
 mod engine;
 mod error;
 mod estimator;
 mod lane;
+mod linearization;
 mod local;
+mod noise;
 mod preemption;
 mod report;
 mod sampler;
@@ -123,10 +127,12 @@ mod workspace;
 pub use candidates::Candidates;
 pub use confidence::Confidence;
 pub use constraint::{Chain, Constraint, Constraints, Unconstrained};
+pub use covariance::Covariance;
 pub use draws::Draws;
 pub use engine::Ransac;
 pub use error::RansacError;
 pub use estimator::{BLOCK, Estimator};
+pub use linearization::{Linearization, MAX_PARAMETERS};
 pub use local::{LeastSquares, LocalOptimization, NoRefit, Refiner, RefitOnce, Reweighted, Scored};
 pub use preemption::{Exhaustive, Look, Lossless, MAX_LOOKS, Preemption, Statistical};
 pub use report::{Counts, MAX_RULES, Rejections, Report, ResidualStatistics};

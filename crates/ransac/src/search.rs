@@ -3,7 +3,7 @@ use crate::workspace::Buffers;
 use crate::{
     Confidence, Constraints, Counts, Estimator, LocalOptimization, Preemption, Progress, Ransac,
     RansacError, Refiner, Rejections, Report, Sampler, Scored, Scorer, StopReason, Stopping,
-    Workspace, report::residual_statistics,
+    Workspace, noise::uncertainty, report::residual_statistics,
 };
 use std::ops::Range;
 
@@ -223,7 +223,10 @@ where
         self.counts.draws = self.progress.draws;
         self.counts.accepted = self.progress.accepted;
         self.counts.hypotheses = self.progress.hypotheses;
+        let (sigma, covariance) = uncertainty(self.estimator, &self.parts.scorer, &model, &inliers);
         Ok(Report {
+            sigma,
+            covariance,
             residuals: residual_statistics(
                 self.estimator,
                 &model,

@@ -1,13 +1,26 @@
 //! `cargo xtask standalone`: whoever holds the engine's folder alone can build, test and benchmark it.
 //!
-//! The folder is copied to a place where no workspace is above it, and cargo is asked there. What
-//! it builds stays in `target/standalone`, so that the next time takes seconds.
+//! The folder is copied to a place where no workspace is above it, and cargo is asked there. The
+//! copy's dependencies are built as the workspace builds them, so that what `target` holds serves again.
 
 use crate::workspace::{Workspace, cargo};
 use anyhow::{Context, Result, ensure};
-use std::{fs, path::Path};
+use std::{
+    env, fs,
+    hash::{DefaultHasher, Hash, Hasher},
+    io::ErrorKind,
+    path::{Path, PathBuf},
+};
 
 const ENGINE: &str = "pomona-ransac";
+
+/// The profile of the workspace, which the copy has not.
+const PROFILE: [&str; 4] = [
+    "profile.dev.opt-level=1",
+    "profile.dev.debug=\"line-tables-only\"",
+    "profile.dev.package.\"*\".opt-level=1",
+    "profile.dev.package.\"*\".debug=false",
+];
 
 /// How thoroughly.
 #[derive(clap::Args, Default)]
@@ -23,38 +36,64 @@ pub(crate) fn run(args: &Args) -> Result<()> {
     let engine = workspace
         .package(ENGINE)
         .with_context(|| format!("there is no {ENGINE}"))?;
-    let place = tempfile::Builder::new()
-        .prefix("pomona-standalone-")
-        .tempdir()
-        .context("cannot make a folder for temporary files")?;
-    copy(engine.folder(), place.path())?;
+    let place = Place::new(&workspace.root)?;
+    copy(engine.folder(), &place.0)?;
     // The versions that are tested here; cargo drops those that the engine does not use.
     let lock = workspace.root.join("Cargo.lock");
-    fs::copy(&lock, place.path().join("Cargo.lock"))
+    fs::copy(&lock, place.0.join("Cargo.lock"))
         .with_context(|| format!("cannot copy {}", lock.display()))?;
 
     let mut commands = vec!["check --all-targets --all-features"];
     if args.test {
         commands.extend(["test --all-features", "bench --all-features -- --test"]);
     }
-    for command in commands {
-        println!("in a copy of {ENGINE}: cargo {command}");
-        let status = cargo()
-            .current_dir(place.path())
-            .env(
-                "CARGO_TARGET_DIR",
-                workspace.target_directory.join("standalone"),
-            )
-            .args(command.split(' '))
+    for arguments in commands {
+        println!("in a copy of {ENGINE}: cargo {arguments}");
+        let mut command = cargo();
+        command
+            .current_dir(&place.0)
+            .env("CARGO_TARGET_DIR", &workspace.target_directory);
+        for setting in PROFILE {
+            command.args(["--config", setting]);
+        }
+        let status = command
+            .args(arguments.split(' '))
             .status()
             .context("cannot start cargo")?;
         ensure!(
             status.success(),
-            "a copy of {} does not stand alone: `cargo {command}` failed there",
+            "a copy of {} does not stand alone: `cargo {arguments}` failed there",
             workspace.relative(engine.folder()).display()
         );
     }
     Ok(())
+}
+
+/// A folder for the copy, gone when this is dropped.
+///
+/// It has the same name each time, because cargo builds anew what lies somewhere else, and another name
+/// for each workspace.
+struct Place(PathBuf);
+
+impl Place {
+    fn new(root: &Path) -> Result<Self> {
+        let mut hasher = DefaultHasher::new();
+        root.hash(&mut hasher);
+        let path = env::temp_dir().join(format!("pomona-standalone-{:x}", hasher.finish()));
+        match fs::remove_dir_all(&path) {
+            Err(error) if error.kind() != ErrorKind::NotFound => {
+                Err(error).with_context(|| format!("cannot clear {}", path.display()))
+            }
+            _ => Ok(Self(path)),
+        }
+    }
+}
+
+impl Drop for Place {
+    fn drop(&mut self) {
+        // Nothing depends on it: the next run clears it again.
+        let _ = fs::remove_dir_all(&self.0);
+    }
 }
 
 /// Copies what the folder holds, build outputs left out.

@@ -71,7 +71,8 @@
 //!   datum's own.
 //! - A [`Preemption`] gives a model up before all data are seen: [`Lossless`], which never changes
 //!   the outcome, or [`Statistical`], whose probability of changing it is a parameter.
-//! - A [`LocalOptimization`] refits: [`RefitOnce`], [`LeastSquares`], [`Reweighted`].
+//! - A [`LocalOptimization`] refits: [`RefitOnce`], [`LeastSquares`], [`Reweighted`], and
+//!   [`NearBest`], which does so with the hypotheses near the best as well.
 //! - A [`Stopping`] rule ends the search: [`FixedCount`], [`Confidence`], [`TimeBudget`], [`Until`], or
 //!   one [`or`](Stopping::or) another.
 //! - The [`Report`] is computed from the final model alone, so that its score,
@@ -116,6 +117,7 @@ mod local;
 mod noise;
 mod preemption;
 mod report;
+mod runners_up;
 mod sampler;
 mod scorer;
 mod search;
@@ -133,7 +135,9 @@ pub use engine::Ransac;
 pub use error::RansacError;
 pub use estimator::{BLOCK, Estimator};
 pub use linearization::{Linearization, MAX_PARAMETERS};
-pub use local::{LeastSquares, LocalOptimization, NoRefit, Refiner, RefitOnce, Reweighted, Scored};
+pub use local::{
+    LeastSquares, LocalOptimization, NearBest, NoRefit, Refiner, RefitOnce, Reweighted, Scored,
+};
 pub use preemption::{Exhaustive, Look, Lossless, MAX_LOOKS, Preemption, Statistical};
 pub use report::{Counts, MAX_RULES, Rejections, Report, ResidualStatistics};
 pub use sampler::{

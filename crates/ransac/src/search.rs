@@ -3,7 +3,7 @@ use crate::workspace::Buffers;
 use crate::{
     Confidence, Constraints, Counts, Estimator, LocalOptimization, Preemption, Progress, Ransac,
     RansacError, Refiner, Rejections, Report, Sampler, Scored, Scorer, StopReason, Stopping,
-    Workspace, noise::uncertainty, report::residual_statistics,
+    Workspace, noise::uncertainty, report::residual_statistics, runners_up::RunnersUp,
 };
 use std::ops::Range;
 
@@ -16,6 +16,7 @@ pub(crate) struct Search<'a, E: Estimator, S, P, C, L, T, B> {
     estimator: &'a E,
     lanes: &'a mut Vec<Lane<E::Model>>,
     buffers: &'a mut Buffers,
+    runners_up: &'a mut RunnersUp<E::Model>,
     seed: u64,
     counts: Counts,
     progress: Progress,
@@ -38,7 +39,8 @@ where
         workspace: &'a mut Workspace<E::Model>,
         seed: u64,
     ) -> Self {
-        workspace.prepare::<E>(estimator.len(), parts.settings);
+        let runners_up = parts.local.runners_up();
+        workspace.prepare::<E>(estimator.len(), runners_up, parts.settings);
         let rules = Constraints::<E>::len(&parts.constraints);
         let mut counts = Counts {
             rules: rules.min(crate::MAX_RULES),
@@ -56,6 +58,7 @@ where
             estimator,
             lanes: &mut workspace.lanes,
             buffers: &mut workspace.buffers,
+            runners_up: &mut workspace.runners_up,
             seed,
             counts,
             progress: Progress {
@@ -92,6 +95,20 @@ where
             .map_or(f64::NEG_INFINITY, |best| best.score)
     }
 
+    /// What a score must exceed to be of use.
+    fn bound(&self) -> f64 {
+        self.near(self.best_score())
+    }
+
+    /// What a runner-up of a score exceeds; the score itself where none is kept.
+    fn near(&self, score: f64) -> f64 {
+        if self.parts.local.runners_up() == 0 || score == f64::NEG_INFINITY {
+            score
+        } else {
+            score.min(score * self.parts.local.near())
+        }
+    }
+
     fn task(&self) -> Task<'a, E, S, P, C, B> {
         Task {
             estimator: self.estimator,
@@ -100,7 +117,7 @@ where
             constraints: &self.parts.constraints,
             preemption: &self.parts.preemption,
             seed: self.seed,
-            bound: self.best_score(),
+            bound: self.bound(),
         }
     }
 
@@ -157,11 +174,15 @@ where
                             continue;
                         }
                         self.progress.hypotheses += 1;
-                        if hypothesis.exceeds(self.best_score(), task) {
-                            let (model, score) = (hypothesis.model, hypothesis.gain);
+                        let useful = hypothesis.exceeds(self.bound(), task);
+                        let (model, score) = (hypothesis.model, hypothesis.gain);
+                        if useful && score > self.best_score() {
                             self.promote(Scored { model, score });
-                        } else {
-                            self.counts.pruned += 1;
+                            continue;
+                        }
+                        self.counts.pruned += 1;
+                        if useful {
+                            self.keep(Scored { model, score });
                         }
                     }
                     self.progress.accepted += u64::from(self.progress.hypotheses > before);
@@ -188,6 +209,33 @@ where
         self.best = Some(best);
     }
 
+    /// Keeps a hypothesis that is near the best for the end.
+    fn keep(&mut self, near: Scored<E::Model>) {
+        if self.runners_up.wants(near.score) {
+            let inliers = &mut self.buffers.inliers;
+            self.parts
+                .scorer
+                .select(self.estimator, &near.model, inliers);
+            self.runners_up.offer(near, inliers);
+        }
+    }
+
+    /// The best of the best model and the runners-up, each after its last refit.
+    fn refit_all(&mut self, best: Scored<E::Model>) -> Scored<E::Model> {
+        let local = &self.parts.local;
+        let bound = self.near(best.score);
+        let mut best = local.finish(&mut self.refiner(), best);
+        let mut runners_up = std::mem::take(self.runners_up);
+        for near in runners_up.drain(bound) {
+            let refitted = local.finish(&mut self.refiner(), near);
+            if refitted.score > best.score {
+                best = refitted;
+            }
+        }
+        *self.runners_up = runners_up;
+        best
+    }
+
     fn refiner(&mut self) -> Refiner<'_, E, S, C> {
         Refiner {
             estimator: self.estimator,
@@ -205,8 +253,7 @@ where
         let Some(best) = self.best.take() else {
             return Err(self.no_model(needed));
         };
-        let local = &self.parts.local;
-        let Scored { model, score } = local.finish(&mut self.refiner(), best);
+        let Scored { model, score } = self.refit_all(best);
         self.parts
             .scorer
             .select(self.estimator, &model, &mut self.buffers.inliers);

@@ -35,10 +35,10 @@ impl<const D: usize> Points<D> {
         let mut coordinates = [(); D].map(|()| Vec::with_capacity(count));
         for i in 0..count {
             let mut height = Self::TRUTH[D - 1];
-            for axis in 0..D - 1 {
+            for (list, slope) in coordinates.iter_mut().zip(Self::TRUTH).take(D - 1) {
                 let c = rng.random_range(-1.0..1.0);
-                height += Self::TRUTH[axis] * c;
-                coordinates[axis].push(c);
+                height += slope * c;
+                list.push(c);
             }
             coordinates[D - 1].push(if i % 2 == 0 {
                 height + rng.random_range(-NOISE..NOISE)
@@ -172,11 +172,10 @@ fn whole<const D: usize>(c: &mut Criterion, kind: &str) {
     search(c, &name, &points, &confident.preemption(statistical));
 }
 
+type Unrefitted = Ransac<Msac<f64>, Uniform, Unconstrained, NoRefit, FixedCount, Exhaustive>;
+
 /// 256 hypotheses scored on all of a million points, so that 2.56e8 residuals are computed.
-fn million() -> (
-    Points<3>,
-    Ransac<Msac<f64>, Uniform, Unconstrained, NoRefit, FixedCount, Exhaustive>,
-) {
+fn million() -> (Points<3>, Unrefitted) {
     let parts = Ransac::new(Msac::within(THRESHOLD))
         .stopping(FixedCount::new(256))
         .preemption(Exhaustive);
@@ -211,7 +210,7 @@ fn wholes(c: &mut Criterion) {
 
 criterion_group! {
     name = usual;
-    config = Criterion::default().sample_size(30);
+    config = Criterion::default().sample_size(20);
     targets = wholes
 }
 criterion_group! {

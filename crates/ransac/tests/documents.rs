@@ -1,7 +1,7 @@
 //! What the pages beside the code say is what the code says.
 
-use std::fs;
 use std::path::{Path, PathBuf};
+use std::{fs, io};
 
 const SETTINGS: &str = include_str!("../docs/settings.md");
 const GUIDE: &str = include_str!("../docs/own-estimator.md");
@@ -34,25 +34,24 @@ fn every_public_type_is_in_the_settings() {
     assert!(missing.is_empty(), "docs/settings.md lacks {missing:?}");
 }
 
-fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
-    for entry in fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
+fn sources(folder: &Path, found: &mut Vec<PathBuf>) -> io::Result<()> {
+    for entry in fs::read_dir(folder)? {
+        let path = entry?.path();
         if path.is_dir() {
-            sources(&path, found);
+            sources(&path, found)?;
         } else {
             found.push(path);
         }
     }
+    Ok(())
 }
 
 /// Functions that take settings: they give what they belong to, or a part that holds it.
 #[test]
 fn every_builder_is_in_the_settings() {
     let mut paths = Vec::new();
-    sources(
-        &Path::new(env!("CARGO_MANIFEST_DIR")).join("src"),
-        &mut paths,
-    );
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    sources(&folder, &mut paths).unwrap();
     let mut builders = 0;
     for path in paths {
         let text = fs::read_to_string(&path).unwrap();

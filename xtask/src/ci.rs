@@ -1,7 +1,7 @@
 //! `cargo xtask ci`: everything that a change must pass.
 
 use crate::{
-    regress, tidy,
+    regress, standalone, tidy,
     workspace::{Package, Workspace, cargo},
 };
 use anyhow::{Context, Result, bail, ensure};
@@ -65,6 +65,9 @@ fn steps(workspace: &Workspace) -> Vec<Step> {
         *variable = Some(("RUSTDOCFLAGS", "-D warnings"));
     }
     steps.push(doc);
+    steps.push(Step::own("standalone", "standalone", || {
+        standalone::run(&standalone::Args::default())
+    }));
     steps.push(Step::own("regress", "regress", || {
         regress::run(&regress::Args::default())
     }));
@@ -167,7 +170,8 @@ mod tests {
             lines[4],
             "RUSTDOCFLAGS=\"-D warnings\" cargo doc --workspace --no-deps"
         );
-        assert_eq!(lines[5], "cargo xtask regress");
+        assert_eq!(lines[5], "cargo xtask standalone");
+        assert_eq!(lines[6], "cargo xtask regress");
     }
 
     #[test]

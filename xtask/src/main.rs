@@ -1,7 +1,8 @@
 //! The project's own commands: `cargo xtask COMMAND`.
 //!
 //! `ci` is everything that a change must pass; `tidy` the rules that no
-//! compiler knows; `regress` whether any result got worse; `bench` how fast and how exact we are, and the peers.
+//! compiler knows; `regress` whether any result got worse; `bench` how fast and how exact we are, and the peers;
+//! `standalone` and `semver` what those need who add the engine to programs of their own.
 //!
 //! No algorithm lives here and none is linked in: commands start the programs
 //! of the workspace and read what they print.
@@ -9,7 +10,9 @@
 mod bench;
 mod ci;
 mod regress;
+mod semver;
 mod source;
+mod standalone;
 mod tidy;
 mod workspace;
 
@@ -34,6 +37,10 @@ enum Command {
     Bench(bench::Args),
     /// Golden runs and accuracy floors: did anything get worse?
     Regress(regress::Args),
+    /// Does a copy of the engine's folder build without the rest of the workspace?
+    Standalone(standalone::Args),
+    /// Does the engine's interface still suit those who built against its last release?
+    Semver(semver::Args),
 }
 
 fn main() -> ExitCode {
@@ -42,6 +49,8 @@ fn main() -> ExitCode {
         Command::Tidy => tidy::run(),
         Command::Bench(args) => bench::run(&args),
         Command::Regress(args) => regress::run(&args),
+        Command::Standalone(args) => standalone::run(&args),
+        Command::Semver(args) => semver::run(&args),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,

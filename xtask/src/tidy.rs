@@ -6,6 +6,7 @@ mod front_pages;
 mod layers;
 mod lengths;
 mod names;
+mod standalone;
 mod words;
 
 use crate::{
@@ -63,6 +64,7 @@ fn findings() -> Result<Vec<Finding>> {
     findings.extend(front_pages::check(&workspace, &sources));
     findings.extend(lengths::check(&sources));
     findings.extend(names::check(&sources));
+    findings.extend(standalone::check(&workspace)?);
     findings.extend(words::check(&sources));
     Ok(findings)
 }

@@ -156,3 +156,20 @@ pub use stopping::{Either, FixedCount, Progress, StopReason, Stopping, Until};
 pub use structures::{Competition, Ended, Extraction, Instance, Selection, Sequential};
 pub use time_budget::TimeBudget;
 pub use workspace::Workspace;
+
+/// Pages beside the reference.
+#[cfg(any(doc, doctest))]
+pub mod guide {
+    // The first definition of a link wins; the one in the file is for readers of the file.
+    /// [settings]: mod@settings
+    #[doc = ""]
+    #[doc = include_str!("../docs/own-estimator.md")]
+    pub mod own_estimator {}
+    #[doc = include_str!("../docs/settings.md")]
+    pub mod settings {}
+}
+
+/// The examples of the README are compiled and run with those of the reference.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+mod readme {}

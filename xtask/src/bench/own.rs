@@ -54,6 +54,8 @@ fn run_one(
 ) -> Result<()> {
     let mut command = cargo();
     command.args(["bench", "--package", &package.name, "--bench", bench]);
+    // What a feature brings, threads say, is measured too.
+    command.arg("--all-features");
     command
         .env("CRITERION_HOME", results)
         .stdout(Stdio::piped());

@@ -1,7 +1,9 @@
 //! Versions stand in one table, every dependency has a user,
 //! and every package obeys the one table of lints.
+//!
+//! The engine inherits nothing; [`standalone`](super::standalone) holds it to the same tables.
 
-use super::{Finding, exceptions::UNNAMED_DEPENDENCIES, key_at};
+use super::{Finding, exceptions::UNNAMED_DEPENDENCIES, key_at, layers::ENGINE};
 use crate::{
     source::{Source, has_word},
     workspace::{Package, Workspace},
@@ -19,8 +21,10 @@ pub(super) fn check(workspace: &Workspace, sources: &[Source]) -> Result<Vec<Fin
     for package in &workspace.packages {
         let path = workspace.relative(&package.manifest_path);
         let manifest = Manifest::read(&package.manifest_path)?;
-        findings.extend(lints_of_its_own(path, &manifest));
-        findings.extend(versions_of_its_own(path, &manifest));
+        if package.name != ENGINE {
+            findings.extend(lints_of_its_own(path, &manifest));
+            findings.extend(versions_of_its_own(path, &manifest));
+        }
         findings.extend(unnamed(workspace, package, path, &manifest, sources));
         manifests.push(manifest);
     }
@@ -29,28 +33,33 @@ pub(super) fn check(workspace: &Workspace, sources: &[Source]) -> Result<Vec<Fin
 }
 
 /// A manifest as it was written: cargo's metadata no longer tell who inherits what.
-struct Manifest {
+pub(super) struct Manifest {
     text: String,
-    table: Table,
+    pub(super) table: Table,
 }
 
 impl Manifest {
-    fn read(path: &Path) -> Result<Self> {
+    pub(super) fn read(path: &Path) -> Result<Self> {
         let what = || format!("cannot read {}", path.display());
         Self::parse(fs::read_to_string(path).with_context(what)?).with_context(what)
     }
 
-    fn parse(text: String) -> Result<Self> {
+    pub(super) fn parse(text: String) -> Result<Self> {
         let table = text.parse()?;
         Ok(Self { text, table })
     }
 
-    fn at(&self, path: &Path, key: &str) -> String {
+    pub(super) fn at(&self, path: &Path, key: &str) -> String {
         key_at(path, &self.text, key)
     }
 
+    fn is_engine(&self) -> bool {
+        let name = self.table.get("package").and_then(|p| p.get("name"));
+        name.and_then(Value::as_str) == Some(ENGINE)
+    }
+
     /// Names and values of all dependencies, those of single platforms included.
-    fn dependencies(&self) -> impl Iterator<Item = (&String, &Value)> {
+    pub(super) fn dependencies(&self) -> impl Iterator<Item = (&String, &Value)> {
         let targets = self.table.get("target").and_then(Value::as_table);
         let platforms = targets
             .into_iter()
@@ -105,7 +114,7 @@ fn in_table_only(root: &Manifest, manifests: &[Manifest]) -> Vec<Finding> {
     let unused = names.filter(|name| {
         !manifests.iter().any(|m| {
             m.dependencies()
-                .any(|(used, v)| used == *name && inherits(v))
+                .any(|(used, v)| used == *name && (inherits(v) || m.is_engine()))
         })
     });
     unused

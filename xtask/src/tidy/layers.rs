@@ -46,7 +46,7 @@ const FORBIDDEN: &[(&str, &str, &str)] = &[
 
 /// The engine is for strangers: it brings nothing along but these,
 /// and whoever holds its folder alone can build and test it.
-const ENGINE: &str = "pomona-ransac";
+pub(super) const ENGINE: &str = "pomona-ransac";
 const ENGINE_NEEDS: [&str; 2] = ["rand_core", "thiserror"];
 const ENGINE_MAY_WANT: [&str; 1] = ["rayon"];
 

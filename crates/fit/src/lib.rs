@@ -33,7 +33,7 @@
 //!   The arithmetic of scoring is done in that type, all fitting in `f64`.
 //! - A solver is a plain function from points to a primitive. A sample or a set that does
 //!   not determine the primitive (coincident, collinear, coplanar, not finite) gives `None`.
-//! - An estimator ([`SphereEstimator`], [`LineEstimator`], [`PlaneEstimator`]) is the view
+//! - An estimator ([`SphereEstimator`], [`LineEstimator`], [`PlaneEstimator`], [`CylinderEstimator`]) is the view
 //!   that `pomona-ransac` works with; constraints ([`RadiusWindow`],
 //!   [`DistanceWindow`]) go with it.
 //!
@@ -41,19 +41,27 @@
 //!
 //! Cameras, noise models, what the points belong to.
 
+mod chart;
 mod constraint;
 mod coordinate;
+mod cylinder;
+mod levenberg;
 mod line;
 mod plane;
 mod points;
+mod prior;
 mod simd;
 mod sphere;
 
 pub use constraint::{DistanceWindow, RadiusWindow, WindowError};
 pub use coordinate::Coordinate;
+pub use cylinder::{
+    CylinderEstimator, cylinder_geometric, cylinder_near_line, cylinder_through, cylinder_weighted,
+};
 pub use line::{LineEstimator, line_least_squares};
 pub use plane::{PlaneEstimator, plane_least_squares};
 pub use points::{Points, PointsError};
+pub use prior::{PriorError, RadiusPrior};
 pub use sphere::{
     SphereEstimator, SphereRefit, sphere_geometric, sphere_least_squares, sphere_through,
 };

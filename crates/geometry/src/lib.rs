@@ -29,6 +29,7 @@
 
 mod aabb;
 mod angle;
+mod basis;
 mod cylinder;
 mod line;
 mod plane;
@@ -37,6 +38,7 @@ mod sphere;
 
 pub use aabb::Aabb;
 pub use angle::{angle_between, angle_between_axes};
+pub use basis::across;
 pub use cylinder::Cylinder;
 pub use line::Line;
 pub use plane::Plane;

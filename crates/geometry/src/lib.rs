@@ -30,6 +30,8 @@
 mod aabb;
 mod angle;
 mod basis;
+mod capsule;
+mod circle;
 mod cylinder;
 mod line;
 mod plane;
@@ -39,6 +41,8 @@ mod sphere;
 pub use aabb::Aabb;
 pub use angle::{angle_between, angle_between_axes};
 pub use basis::across;
+pub use capsule::Capsule;
+pub use circle::Circle;
 pub use cylinder::Cylinder;
 pub use line::Line;
 pub use plane::Plane;

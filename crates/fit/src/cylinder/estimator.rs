@@ -1,5 +1,8 @@
+use crate::cylinder::cylinder_held;
+use crate::held::HeldRefit;
+use crate::points::weighted;
 use crate::prior::Knowledge;
-use crate::{Coordinate, Points, PriorError, RadiusPrior, cylinder_through, cylinder_weighted};
+use crate::{Coordinate, Points, PriorError, RadiusPrior, cylinder_through};
 use pomona_geometry::Cylinder;
 use pomona_ransac::{Candidates, Estimator};
 use std::ops::Range;
@@ -7,7 +10,7 @@ use std::ops::Range;
 /// Cylinders through points with normals, for `pomona-ransac`. A residual is the distance from the
 /// surface; the normals (of either sign) make models and are not scored.
 ///
-/// A refit is [`cylinder_weighted`], started from the model so far.
+/// A refit is [`cylinder_weighted`](crate::cylinder_weighted), started from the model so far.
 #[derive(Clone, Copy, Debug)]
 pub struct CylinderEstimator<'a, T> {
     points: Points<'a, T>,
@@ -37,19 +40,15 @@ impl<'a, T: Coordinate> CylinderEstimator<'a, T> {
         Ok(Self { knowledge, ..self })
     }
 
-    fn refit_with(
+    fn geometric(
         &self,
         inliers: &[usize],
-        weight: impl Fn(usize) -> f64 + Clone,
+        weights: Option<&[f64]>,
         current: &Cylinder,
+        condition: Option<&dyn Fn(&Cylinder) -> f64>,
     ) -> Option<Cylinder> {
-        let unit = self.knowledge.map_or(1.0, |k| k.point_sigma.powi(-2));
-        let points = self.points.select(inliers).enumerate();
-        cylinder_weighted(
-            points.map(|(i, p)| (p, unit * weight(i))),
-            current,
-            self.knowledge.map(|k| k.prior),
-        )
+        let points = weighted(&self.points, inliers, weights, self.knowledge);
+        cylinder_held(points, current, self.knowledge.map(|k| k.prior), condition)
     }
 }
 
@@ -74,7 +73,7 @@ impl<T: Coordinate> Estimator for CylinderEstimator<'_, T> {
     }
 
     fn refit(&self, inliers: &[usize], current: &Cylinder) -> Option<Cylinder> {
-        self.refit_with(inliers, |_| 1.0, current)
+        self.geometric(inliers, None, current, None)
     }
 
     fn refit_weighted(
@@ -83,13 +82,24 @@ impl<T: Coordinate> Estimator for CylinderEstimator<'_, T> {
         weights: &[f64],
         current: &Cylinder,
     ) -> Option<Cylinder> {
-        let weight = |i| weights.get(i).copied().unwrap_or(0.0);
-        self.refit_with(inliers, weight, current)
+        self.geometric(inliers, Some(weights), current, None)
     }
 
     fn residuals(&self, cylinder: &Cylinder, block: Range<usize>, out: &mut [f64]) {
         for (r, i) in out.iter_mut().zip(block) {
             *r = cylinder.signed_distance(&self.points.get(i)).abs();
         }
+    }
+}
+
+impl<T: Coordinate> HeldRefit for CylinderEstimator<'_, T> {
+    fn refit_held(
+        &self,
+        inliers: &[usize],
+        weights: Option<&[f64]>,
+        start: &Cylinder,
+        condition: &dyn Fn(&Cylinder) -> f64,
+    ) -> Option<Cylinder> {
+        self.geometric(inliers, weights, start, Some(condition))
     }
 }

@@ -1,5 +1,5 @@
 use crate::cylinder::CylinderChart;
-use crate::levenberg::Objective;
+use crate::levenberg::{Condition, Objective};
 use crate::{RadiusPrior, points::centroid_and_extent};
 use nalgebra::Point3;
 use pomona_geometry::{Cylinder, Line};
@@ -37,6 +37,16 @@ pub fn cylinder_weighted(
     start: &Cylinder,
     prior: Option<RadiusPrior>,
 ) -> Option<Cylinder> {
+    cylinder_held(points, start, prior, None)
+}
+
+/// [`cylinder_weighted`] among the cylinders that fulfil a condition, if one is given.
+pub(crate) fn cylinder_held(
+    points: impl Iterator<Item = (Point3<f64>, f64)> + Clone,
+    start: &Cylinder,
+    prior: Option<RadiusPrior>,
+    condition: Option<&Condition<'_, Cylinder>>,
+) -> Option<Cylinder> {
     let points = points.filter(|&(_, weight)| weight != 0.0);
     if points.clone().count() + usize::from(prior.is_some()) < 5 {
         return None;
@@ -48,12 +58,13 @@ pub fn cylinder_weighted(
         ..start.axis
     };
     let start = Cylinder { axis, ..*start };
-    let cylinder = Objective { points, prior }.minimize::<CylinderChart, 5, 1>(&start)?;
-    let axis = Line::new(
-        cylinder.axis.foot(&centroid),
-        cylinder.axis.direction.into_inner(),
-    )?;
-    Cylinder::new(axis, cylinder.radius)
+    let objective = Objective { points, prior };
+    let cylinder = objective.minimize::<CylinderChart, 5, 1>(&start, condition)?;
+    let axis = Line {
+        point: cylinder.axis.foot(&centroid),
+        ..cylinder.axis
+    };
+    Some(Cylinder { axis, ..cylinder })
 }
 
 #[cfg(test)]

@@ -1,8 +1,28 @@
-use nalgebra::{Matrix4, Point3, Vector4};
+use crate::RadiusPrior;
+use crate::levenberg::{Condition, Objective};
+use crate::sphere::SphereChart;
+use nalgebra::Point3;
 use pomona_geometry::Sphere;
 
 /// The sphere with the least sum of squared distances of the points from its surface:
 /// minimises Σ (‖p − c‖ − r)², starting from `start`.
+///
+/// [`sphere_weighted`] with a weight of 1 for each point and no prior on the radius.
+///
+/// `None` for fewer than four points and where anything is not finite.
+pub fn sphere_geometric(
+    points: impl ExactSizeIterator<Item = Point3<f64>> + Clone,
+    start: &Sphere,
+) -> Option<Sphere> {
+    sphere_weighted(points.map(|p| (p, 1.0)), start, None)
+}
+
+/// The sphere that minimises Σ wᵢ (‖pᵢ − c‖ − r)², plus ((r − mean)/sigma)² where a prior on the
+/// radius is given, near `start`.
+///
+/// Each item is a point and its weight, not negative: 1/σ² of the point's noise σ across the
+/// surface, times whatever a robust loss makes of it. With a prior the weights must have that
+/// unit; without one only their ratios matter. Points of zero weight are left out.
 ///
 /// Levenberg–Marquardt on the centre and radius (Ahn, Rauh and Warnecke 2001, "Least-squares
 /// orthogonal distances fitting of circle, sphere, ellipse, hyperbola, and parabola",
@@ -10,92 +30,27 @@ use pomona_geometry::Sphere;
 /// the result is at least as good as `start`. Points at the centre have no direction
 /// and are left out of a step.
 ///
-/// `None` for fewer than four points and where anything is not finite.
-#[expect(
-    clippy::needless_pass_by_value,
-    reason = "an iterator is taken whole, as by the other solvers"
-)]
-pub fn sphere_geometric(
-    points: impl ExactSizeIterator<Item = Point3<f64>> + Clone,
+/// `None` for fewer than four points of positive weight (three with a prior) and where anything is not finite.
+pub fn sphere_weighted(
+    points: impl Iterator<Item = (Point3<f64>, f64)> + Clone,
     start: &Sphere,
+    prior: Option<RadiusPrior>,
 ) -> Option<Sphere> {
-    const MAX_STEPS: usize = 100;
-    if points.len() < 4 {
+    sphere_held(points, start, prior, None)
+}
+
+/// [`sphere_weighted`] among the spheres that fulfil a condition, if one is given.
+pub(crate) fn sphere_held(
+    points: impl Iterator<Item = (Point3<f64>, f64)> + Clone,
+    start: &Sphere,
+    prior: Option<RadiusPrior>,
+    condition: Option<&Condition<'_, Sphere>>,
+) -> Option<Sphere> {
+    let points = points.filter(|&(_, weight)| weight != 0.0);
+    if points.clone().count() + usize::from(prior.is_some()) < 4 {
         return None;
     }
-    let mut sphere = *start;
-    let mut objective = sum_of_squares(points.clone(), &sphere);
-    if !objective.is_finite() {
-        return None;
-    }
-    let mut damping = 1e-6;
-    for _ in 0..MAX_STEPS {
-        let (normal, gradient) = normal_equations(points.clone(), &sphere);
-        let mut improved = None;
-        // Damping grows until a step goes down; at 1e12 no step is left to take.
-        while damping < 1e12 {
-            let mut damped = normal;
-            for k in 0..4 {
-                damped[(k, k)] += damping * normal[(k, k)].max(f64::MIN_POSITIVE);
-            }
-            let candidate = damped
-                .cholesky()
-                .and_then(|c| stepped(&sphere, &c.solve(&gradient)));
-            if let Some(candidate) = candidate {
-                let sum = sum_of_squares(points.clone(), &candidate);
-                if sum <= objective {
-                    improved = Some((candidate, sum));
-                    break;
-                }
-            }
-            damping *= 10.0;
-        }
-        let Some((candidate, sum)) = improved else {
-            break;
-        };
-        let moved = (candidate.center - sphere.center)
-            .norm()
-            .max((candidate.radius - sphere.radius).abs());
-        sphere = candidate;
-        objective = sum;
-        damping = (damping / 10.0).max(1e-12);
-        if moved <= 1e-14 * (sphere.radius + sphere.center.coords.norm()) {
-            break;
-        }
-    }
-    Some(sphere)
-}
-
-fn stepped(sphere: &Sphere, step: &Vector4<f64>) -> Option<Sphere> {
-    Sphere::new(
-        sphere.center + step.fixed_rows::<3>(0),
-        sphere.radius + step[3],
-    )
-}
-
-fn sum_of_squares(points: impl Iterator<Item = Point3<f64>>, sphere: &Sphere) -> f64 {
-    points.map(|p| sphere.signed_distance(&p).powi(2)).sum()
-}
-
-/// `JᵀJ` and `−Jᵀf` of the residuals f = ‖p − c‖ − r, whose derivatives are −(p − c)/‖p − c‖ and −1.
-fn normal_equations(
-    points: impl Iterator<Item = Point3<f64>>,
-    sphere: &Sphere,
-) -> (Matrix4<f64>, Vector4<f64>) {
-    let mut normal = Matrix4::zeros();
-    let mut gradient = Vector4::zeros();
-    for p in points {
-        let offset = p - sphere.center;
-        let norm = offset.norm();
-        if norm == 0.0 {
-            continue;
-        }
-        let u = offset / norm;
-        let row = Vector4::new(u.x, u.y, u.z, 1.0);
-        normal += row * row.transpose();
-        gradient += row * (norm - sphere.radius);
-    }
-    (normal, gradient)
+    Objective { points, prior }.minimize::<SphereChart, 4, 1>(start, condition)
 }
 
 #[cfg(test)]

@@ -1,8 +1,7 @@
 //! Cylinders: exact recovery, equivariance, no refit worse than its start, one-sided surfaces with
 //! a prior, and a search with normals.
 
-mod shapes;
-
+use crate::shapes::{close_cylinders, columns, direction, gauss, motion, side, unit, vector};
 use nalgebra::{Point3, Unit, UnitQuaternion, Vector3};
 use pomona_fit::{
     CylinderEstimator, Points, RadiusPrior, cylinder_geometric, cylinder_near_line,
@@ -13,7 +12,6 @@ use pomona_ransac::{Estimator, FixedCount, LeastSquares, Msac, Ransac};
 use proptest::prelude::*;
 use rand::{RngExt, SeedableRng, seq::SliceRandom};
 use rand_chacha::ChaCha8Rng;
-use shapes::{close_cylinders, columns, direction, gauss, motion, side, unit, vector};
 use std::f64::consts::PI;
 
 fn cylinder(point: Vector3<f64>, direction: Unit<Vector3<f64>>, radius: f64) -> Cylinder {

@@ -1,8 +1,7 @@
 //! Random shapes and points on them.
-#![allow(dead_code, reason = "each test takes what it needs")]
 
 use nalgebra::{Isometry3, Point3, Translation3, Unit, UnitQuaternion, Vector3};
-use pomona_geometry::{Cylinder, Line, across};
+use pomona_geometry::{Cylinder, Line, Sphere, across};
 use proptest::prelude::*;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -64,6 +63,27 @@ pub(crate) fn side(
             )
         })
         .unzip()
+}
+
+/// `n` points of a sphere's cap within `half_angle` of the direction towards the origin, off the surface
+/// by σ = `noise`.
+pub(crate) fn cap(
+    sphere: &Sphere,
+    n: usize,
+    half_angle: f64,
+    noise: f64,
+    seed: u64,
+) -> Vec<Point3<f64>> {
+    let mut rng = ChaCha8Rng::seed_from_u64(seed);
+    let pole = -sphere.center.coords.normalize();
+    let mut points = Vec::new();
+    while points.len() < n {
+        let normal = unit(&mut rng);
+        if normal.dot(&pole) > half_angle.cos() {
+            points.push(sphere.center + normal * (sphere.radius + noise * gauss(&mut rng)));
+        }
+    }
+    points
 }
 
 pub(crate) fn close_lines(a: &Line, b: &Line, angle: f64, distance: f64) -> bool {

@@ -1,0 +1,8 @@
+//! Properties of the fits, one module for each shape, and of the constraints.
+
+mod capsule;
+mod circle;
+
+mod cylinder;
+mod shapes;
+mod sphere;

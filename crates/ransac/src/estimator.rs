@@ -1,4 +1,4 @@
-use crate::Candidates;
+use crate::{Candidates, Linearization};
 use std::ops::Range;
 
 /// How many data one scoring call sees at most: a block.
@@ -28,6 +28,10 @@ pub trait Estimator: Sync {
 
     /// How many models one minimal sample can give at most.
     const MAX_MODELS: usize = 1;
+
+    /// How many free parameters [`linearize`](Self::linearize) gives derivatives by; 0, the
+    /// default, for an estimator that gives none, and at most [`MAX_PARAMETERS`](crate::MAX_PARAMETERS).
+    const PARAMETERS: usize = 0;
 
     /// How many data there are.
     fn len(&self) -> usize;
@@ -62,6 +66,18 @@ pub trait Estimator: Sync {
     ///
     /// NaN stands for a datum that no model explains; it is never an inlier.
     fn residuals(&self, model: &Self::Model, block: Range<usize>, out: &mut [f64]);
+
+    /// Pushes the signed residuals of one datum, with their derivatives by the
+    /// [`PARAMETERS`](Self::PARAMETERS) at `model`; nothing by default, and nothing where the
+    /// datum has none.
+    ///
+    /// One row for each component of a residual whose noise is independent: a point's offset from a
+    /// sphere is one, from a line in space two, across it. The squares of a datum's rows add
+    /// up to the square of its [`residual`](Self::residuals). The parameters are local ones, free of each other and
+    /// 0 at `model`: two angles and two shifts for a line, not the six numbers
+    /// that store it. From them come [`Report::sigma`](crate::Report::sigma) and
+    /// [`Report::covariance`](crate::Report::covariance).
+    fn linearize(&self, _model: &Self::Model, _datum: usize, _rows: &mut Linearization) {}
 
     /// How many data of `block`, at most [`BLOCK`], have a residual of at most `threshold`.
     fn count_within(&self, model: &Self::Model, block: Range<usize>, threshold: f64) -> usize {

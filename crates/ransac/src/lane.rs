@@ -11,7 +11,7 @@ pub(crate) struct Task<'a, E, S, P, C, B> {
     pub(crate) constraints: &'a C,
     pub(crate) preemption: &'a B,
     pub(crate) seed: u64,
-    /// The best score when the round began.
+    /// The least that a score had to exceed when the round began.
     pub(crate) bound: f64,
 }
 
@@ -54,8 +54,9 @@ impl<M> Hypothesis<M> {
         }
     }
 
-    /// Whether this model takes the place of one with the score `best`.
-    pub(crate) fn exceeds<E, S, P, C, B>(&self, best: f64, task: &Task<'_, E, S, P, C, B>) -> bool
+    /// Whether a search of one iteration after the other would have scored this model in full, and
+    /// found it above `bound`, its bound at that time.
+    pub(crate) fn exceeds<E, S, P, C, B>(&self, bound: f64, task: &Task<'_, E, S, P, C, B>) -> bool
     where
         E: Estimator<Model = M>,
         S: Scorer<E>,
@@ -63,7 +64,7 @@ impl<M> Hypothesis<M> {
     {
         let data = task.estimator.len();
         self.verdict == Verdict::Scored
-            && self.gain > best
+            && self.gain > bound
             && (B::LOSSLESS
                 || !self.looks[..self.looked].iter().any(|&(seen, gain)| {
                     let most_left = task.scorer.most_gain(task.estimator, seen..data);
@@ -73,7 +74,7 @@ impl<M> Hypothesis<M> {
                         gain,
                         most_left,
                     };
-                    task.preemption.gives_up(&look, best)
+                    task.preemption.gives_up(&look, bound)
                 }))
     }
 }

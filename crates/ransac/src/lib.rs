@@ -71,11 +71,16 @@
 //!   datum's own.
 //! - A [`Preemption`] gives a model up before all data are seen: [`Lossless`], which never changes
 //!   the outcome, or [`Statistical`], whose probability of changing it is a parameter.
-//! - A [`LocalOptimization`] refits: [`RefitOnce`], [`LeastSquares`], [`Reweighted`].
+//! - A [`LocalOptimization`] refits: [`RefitOnce`], [`LeastSquares`], [`Reweighted`], and
+//!   [`NearBest`], which does so with the hypotheses near the best as well.
 //! - A [`Stopping`] rule ends the search: [`FixedCount`], [`Confidence`], [`TimeBudget`], [`Until`], or
 //!   one [`or`](Stopping::or) another.
 //! - The [`Report`] is computed from the final model alone, so that its score,
-//!   inliers and residuals belong together.
+//!   inliers and residuals belong together. Where the estimator gives derivatives
+//!   ([`Estimator::linearize`]), it tells the noise and the model's [`Covariance`].
+//!
+//! Where the data hold several structures, [`Sequential`] finds one after the other among the
+//! data that are left, and a [`Competition`] chooses among candidate models, which share out the data.
 //!
 //! A [`Workspace`] is the memory of a search: with one that is used again,
 //! [`Ransac::run_with`] allocates nothing.
@@ -104,30 +109,39 @@
 mod candidates;
 mod confidence;
 mod constraint;
+mod covariance;
 mod draws;
 mod engine;
 mod error;
 mod estimator;
 mod lane;
+mod linearization;
 mod local;
+mod noise;
 mod preemption;
 mod report;
+mod runners_up;
 mod sampler;
 mod scorer;
 mod search;
 mod shuffle;
 mod stopping;
+mod structures;
 mod time_budget;
 mod workspace;
 
 pub use candidates::Candidates;
 pub use confidence::Confidence;
 pub use constraint::{Chain, Constraint, Constraints, Unconstrained};
+pub use covariance::Covariance;
 pub use draws::Draws;
 pub use engine::Ransac;
 pub use error::RansacError;
 pub use estimator::{BLOCK, Estimator};
-pub use local::{LeastSquares, LocalOptimization, NoRefit, Refiner, RefitOnce, Reweighted, Scored};
+pub use linearization::{Linearization, MAX_PARAMETERS};
+pub use local::{
+    LeastSquares, LocalOptimization, NearBest, NoRefit, Refiner, RefitOnce, Reweighted, Scored,
+};
 pub use preemption::{Exhaustive, Look, Lossless, MAX_LOOKS, Preemption, Statistical};
 pub use report::{Counts, MAX_RULES, Rejections, Report, ResidualStatistics};
 pub use sampler::{
@@ -139,5 +153,6 @@ pub use scorer::{
 };
 pub use shuffle::Shuffle;
 pub use stopping::{Either, FixedCount, Progress, StopReason, Stopping, Until};
+pub use structures::{Competition, Ended, Extraction, Instance, Selection, Sequential};
 pub use time_budget::TimeBudget;
 pub use workspace::Workspace;

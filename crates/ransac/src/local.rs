@@ -1,7 +1,9 @@
 //! What is done with a hypothesis once it is the best.
 
+mod near_best;
 mod reweighted;
 
+pub use near_best::NearBest;
 pub use reweighted::Reweighted;
 
 use crate::{Constraints, Counts, Estimator, Scorer, report::for_each_residual};
@@ -51,11 +53,7 @@ impl<E: Estimator, S: Scorer<E>, C: Constraints<E>> Refiner<'_, E, S, C> {
         scorer.select(estimator, model, inliers);
         weights.clear();
         for_each_residual(*estimator, model, inliers, |datum, residual| {
-            let fraction = if residual > 0.0 {
-                residual / scorer.threshold_of(model, datum)
-            } else {
-                0.0
-            };
+            let fraction = scorer.fraction_of(model, datum, residual);
             weights.push(scorer.weight_of(datum) * weigh(fraction));
         });
         let refitted = estimator.refit_weighted(inliers, weights, model);
@@ -100,12 +98,23 @@ pub trait LocalOptimization<E: Estimator> {
         best
     }
 
-    /// Called once, for the best model of all.
+    /// Called at the end, for the best model of all and then for each of the
+    /// [`runners_up`](Self::runners_up); the highest score that comes out is the outcome.
     fn finish<S: Scorer<E>, C: Constraints<E>>(
         &self,
         refiner: &mut Refiner<'_, E, S, C>,
         best: Scored<E::Model>,
     ) -> Scored<E::Model>;
+
+    /// How many of the best other hypotheses the search keeps for the end; none by default.
+    fn runners_up(&self) -> usize {
+        0
+    }
+
+    /// Share of the best score, from 0 to 1, that a runner-up exceeds; asked where any are kept.
+    fn near(&self) -> f64 {
+        1.0
+    }
 }
 
 /// Leaves the best hypothesis as it was drawn.

@@ -1,4 +1,4 @@
-use crate::{Estimator, StopReason, estimator::blocks};
+use crate::{Covariance, Estimator, StopReason, estimator::blocks};
 
 /// How many constraint rules a report counts apart; further rules count with the last one.
 pub const MAX_RULES: usize = 8;
@@ -74,6 +74,28 @@ pub struct Report<M> {
     pub score: f64,
     /// Its inliers' residuals.
     pub residuals: ResidualStatistics,
+    /// Standard deviation of the noise in one component of a residual, where the estimator gives
+    /// derivatives ([`Estimator::PARAMETERS`]) and there are more rows than parameters.
+    ///
+    /// From σ² = Σ w r²/(rows − parameters) over the inliers, with what the threshold cut off a
+    /// Gaussian noise given back: at a threshold of 2σ the inliers show 88 % of σ, at 3σ 98.7 %.
+    /// It is at most the threshold, which it reaches where the inliers fill the band evenly
+    /// and so do not tell their noise.
+    ///
+    /// Where data have thresholds tᵢ and weights wᵢ of their own ([`PerDatum`](crate::PerDatum)), it
+    /// belongs to a datum with the largest threshold T and weight 1; another's variance is taken as
+    /// σ² (tᵢ/T)²/wᵢ. What weights do to the share that is cut off is left out of account.
+    pub sigma: Option<f64>,
+    /// Covariance of the model's parameters as [`Estimator::linearize`] has them; `None` also where the
+    /// inliers do not determine all of them.
+    ///
+    /// It takes the model for the least-squares fit to its own inliers with the weights of
+    /// [`sigma`](Self::sigma), as [`LeastSquares`](crate::LeastSquares) leaves it, errors as independent, and the
+    /// inliers as having no outliers among them. Such a fit solves Σ ψ(rᵢ) ∇rᵢ = 0 with
+    /// ψ(r) = r within the threshold and 0 beyond, whose covariance is `E[ψ²]/E[ψ′]² (Σ ∇r ∇rᵀ)⁻¹` over
+    /// all data (Huber 1964, doi 10.1214/aoms/1177703732). For Gaussian noise `E[ψ′] = E[rψ]/σ²` (Stein's identity),
+    /// which makes it `(σ⁴/s²)(JᵀWJ)⁻¹` over the inliers, s being the spread that these show.
+    pub covariance: Option<Covariance>,
     /// Probability that a sample of inliers alone was among those drawn, had the samples been uniform
     /// and the final model's inliers all there are to find: 1 less
     /// [`Confidence::miss_probability`](crate::Confidence::miss_probability).

@@ -3,7 +3,10 @@ use crate::workspace::Buffers;
 use crate::{
     Confidence, Constraints, Counts, Estimator, LocalOptimization, Preemption, Progress, Ransac,
     RansacError, Refiner, Rejections, Report, Sampler, Scored, Scorer, StopReason, Stopping,
-    Workspace, report::residual_statistics,
+    Workspace,
+    noise::uncertainty,
+    report::residual_statistics,
+    runners_up::{Keep, RunnersUp},
 };
 use std::ops::Range;
 
@@ -16,6 +19,8 @@ pub(crate) struct Search<'a, E: Estimator, S, P, C, L, T, B> {
     estimator: &'a E,
     lanes: &'a mut Vec<Lane<E::Model>>,
     buffers: &'a mut Buffers,
+    runners_up: &'a mut RunnersUp<E::Model>,
+    keep: Keep,
     seed: u64,
     counts: Counts,
     progress: Progress,
@@ -38,7 +43,22 @@ where
         workspace: &'a mut Workspace<E::Model>,
         seed: u64,
     ) -> Self {
-        workspace.prepare::<E>(estimator.len(), parts.settings);
+        let keep = Keep {
+            models: parts.local.runners_up(),
+            share: parts.local.near(),
+        };
+        Self::keeping(keep, parts, estimator, workspace, seed)
+    }
+
+    /// A search that keeps other runners-up than the local optimisation wants.
+    pub(crate) fn keeping(
+        keep: Keep,
+        parts: &'a Ransac<S, P, C, L, T, B>,
+        estimator: &'a E,
+        workspace: &'a mut Workspace<E::Model>,
+        seed: u64,
+    ) -> Self {
+        workspace.prepare::<E>(estimator.len(), keep.models, parts.settings);
         let rules = Constraints::<E>::len(&parts.constraints);
         let mut counts = Counts {
             rules: rules.min(crate::MAX_RULES),
@@ -56,6 +76,8 @@ where
             estimator,
             lanes: &mut workspace.lanes,
             buffers: &mut workspace.buffers,
+            runners_up: &mut workspace.runners_up,
+            keep,
             seed,
             counts,
             progress: Progress {
@@ -69,6 +91,20 @@ where
 
     /// Searches, and reports.
     pub(crate) fn report(mut self) -> Result<Report<E::Model>, RansacError> {
+        let (best, stopped) = self.best_hypothesis()?;
+        self.finish(best, stopped)
+    }
+
+    /// Searches; the best model and the runners-up, each after its last refit.
+    pub(crate) fn candidates(mut self) -> Result<Vec<Scored<E::Model>>, RansacError> {
+        let (best, _) = self.best_hypothesis()?;
+        let mut all = Vec::with_capacity(1 + self.keep.models);
+        self.refit_each(best, |refitted| all.push(refitted));
+        Ok(all)
+    }
+
+    /// Draws and scores until the rule ends it.
+    fn best_hypothesis(&mut self) -> Result<(Scored<E::Model>, StopReason), RansacError> {
         if self.estimator.len() < E::SAMPLE_SIZE {
             return Err(RansacError::TooFewData {
                 needed: E::SAMPLE_SIZE,
@@ -83,13 +119,28 @@ where
                 break reason;
             }
         };
-        self.finish(stopped)
+        let best = self.best.take().ok_or_else(|| self.no_model())?;
+        Ok((best, stopped))
     }
 
     fn best_score(&self) -> f64 {
         self.best
             .as_ref()
             .map_or(f64::NEG_INFINITY, |best| best.score)
+    }
+
+    /// What a score must exceed to be of use.
+    fn bound(&self) -> f64 {
+        self.near(self.best_score())
+    }
+
+    /// What a runner-up of a score exceeds; the score itself where none is kept.
+    fn near(&self, score: f64) -> f64 {
+        if self.keep.models == 0 || score == f64::NEG_INFINITY {
+            score
+        } else {
+            score.min(score * self.keep.share)
+        }
     }
 
     fn task(&self) -> Task<'a, E, S, P, C, B> {
@@ -100,7 +151,7 @@ where
             constraints: &self.parts.constraints,
             preemption: &self.parts.preemption,
             seed: self.seed,
-            bound: self.best_score(),
+            bound: self.bound(),
         }
     }
 
@@ -157,11 +208,15 @@ where
                             continue;
                         }
                         self.progress.hypotheses += 1;
-                        if hypothesis.exceeds(self.best_score(), task) {
-                            let (model, score) = (hypothesis.model, hypothesis.gain);
+                        let useful = hypothesis.exceeds(self.bound(), task);
+                        let (model, score) = (hypothesis.model, hypothesis.gain);
+                        if useful && score > self.best_score() {
                             self.promote(Scored { model, score });
-                        } else {
-                            self.counts.pruned += 1;
+                            continue;
+                        }
+                        self.counts.pruned += 1;
+                        if useful {
+                            self.keep(Scored { model, score });
                         }
                     }
                     self.progress.accepted += u64::from(self.progress.hypotheses > before);
@@ -188,6 +243,29 @@ where
         self.best = Some(best);
     }
 
+    /// Keeps a hypothesis that is near the best for the end.
+    fn keep(&mut self, near: Scored<E::Model>) {
+        if self.runners_up.wants(near.score) {
+            let inliers = &mut self.buffers.inliers;
+            self.parts
+                .scorer
+                .select(self.estimator, &near.model, inliers);
+            self.runners_up.offer(near, inliers);
+        }
+    }
+
+    /// Gives the best model and the runners-up to `take`, each after its last refit.
+    fn refit_each(&mut self, best: Scored<E::Model>, mut take: impl FnMut(Scored<E::Model>)) {
+        let local = &self.parts.local;
+        let bound = self.near(best.score);
+        take(local.finish(&mut self.refiner(), best));
+        let mut runners_up = std::mem::take(self.runners_up);
+        for near in runners_up.drain(bound) {
+            take(local.finish(&mut self.refiner(), near));
+        }
+        *self.runners_up = runners_up;
+    }
+
     fn refiner(&mut self) -> Refiner<'_, E, S, C> {
         Refiner {
             estimator: self.estimator,
@@ -199,18 +277,26 @@ where
         }
     }
 
-    /// The last refit, and the report of what came out of it.
-    fn finish(mut self, stopped: StopReason) -> Result<Report<E::Model>, RansacError> {
-        let needed = self.parts.settings.min_inliers.max(E::SAMPLE_SIZE);
-        let Some(best) = self.best.take() else {
-            return Err(self.no_model(needed));
+    /// The last refits, and the report of what came out of them.
+    fn finish(
+        mut self,
+        hypothesis: Scored<E::Model>,
+        stopped: StopReason,
+    ) -> Result<Report<E::Model>, RansacError> {
+        let mut best = None::<Scored<E::Model>>;
+        self.refit_each(hypothesis, |refitted| {
+            if best.as_ref().is_none_or(|b| refitted.score > b.score) {
+                best = Some(refitted);
+            }
+        });
+        let Some(Scored { model, score }) = best else {
+            return Err(self.no_model());
         };
-        let local = &self.parts.local;
-        let Scored { model, score } = local.finish(&mut self.refiner(), best);
         self.parts
             .scorer
             .select(self.estimator, &model, &mut self.buffers.inliers);
         let inliers = std::mem::take(&mut self.buffers.inliers);
+        let needed = self.needed();
         if inliers.len() < needed {
             let found = inliers.len();
             self.buffers.inliers = inliers;
@@ -223,7 +309,10 @@ where
         self.counts.draws = self.progress.draws;
         self.counts.accepted = self.progress.accepted;
         self.counts.hypotheses = self.progress.hypotheses;
+        let (sigma, covariance) = uncertainty(self.estimator, &self.parts.scorer, &model, &inliers);
         Ok(Report {
+            sigma,
+            covariance,
             residuals: residual_statistics(
                 self.estimator,
                 &model,
@@ -239,7 +328,13 @@ where
         })
     }
 
-    fn no_model(&self, needed: usize) -> RansacError {
+    /// The least number of inliers.
+    fn needed(&self) -> usize {
+        self.parts.settings.min_inliers.max(E::SAMPLE_SIZE)
+    }
+
+    fn no_model(&self) -> RansacError {
+        let needed = self.needed();
         let draws = self.progress.draws;
         let most = self
             .counts

@@ -1,4 +1,4 @@
-use crate::{Estimator, Report, engine::Settings, lane::Lane};
+use crate::{Estimator, Report, engine::Settings, lane::Lane, runners_up::RunnersUp};
 
 /// The memory of a search, to be used again by the next one.
 ///
@@ -10,6 +10,7 @@ use crate::{Estimator, Report, engine::Settings, lane::Lane};
 pub struct Workspace<M> {
     pub(crate) lanes: Vec<Lane<M>>,
     pub(crate) buffers: Buffers,
+    pub(crate) runners_up: RunnersUp<M>,
     pub(crate) report: Option<Report<M>>,
 }
 
@@ -27,6 +28,7 @@ impl<M> Workspace<M> {
         Self {
             lanes: Vec::new(),
             buffers: Buffers::default(),
+            runners_up: RunnersUp::default(),
             report: None,
         }
     }
@@ -37,7 +39,13 @@ impl<M> Workspace<M> {
     }
 
     /// Readies the memory for a search.
-    pub(crate) fn prepare<E: Estimator<Model = M>>(&mut self, data: usize, settings: Settings) {
+    pub(crate) fn prepare<E: Estimator<Model = M>>(
+        &mut self,
+        data: usize,
+        runners_up: usize,
+        settings: Settings,
+    ) {
+        self.runners_up.prepare(runners_up, data);
         // The last report's list of inliers serves again.
         if let Some(report) = self.report.take() {
             self.buffers.inliers = report.inliers;

@@ -4,7 +4,7 @@ use crate::RadiusPrior;
 use crate::chart::Chart;
 use nalgebra::{Cholesky, Const, Point3, SMatrix, SVector};
 
-const MAX_STEPS: usize = 60;
+const MAX_STEPS: usize = 200;
 
 /// Damping beyond which no step is left to take.
 const MAX_DAMPING: f64 = 1e12;

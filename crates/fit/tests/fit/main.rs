@@ -2,6 +2,7 @@
 
 mod capsule;
 mod circle;
+mod constraint;
 
 mod cylinder;
 mod shapes;

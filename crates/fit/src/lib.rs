@@ -33,7 +33,7 @@
 //!   The arithmetic of scoring is done in that type, all fitting in `f64`.
 //! - A solver is a plain function from points to a primitive. A sample or a set that does
 //!   not determine the primitive (coincident, collinear, coplanar, not finite) gives `None`.
-//! - An estimator ([`SphereEstimator`], [`LineEstimator`], [`PlaneEstimator`]) is the view
+//! - An estimator ([`SphereEstimator`], [`LineEstimator`], [`PlaneEstimator`], [`CylinderEstimator`]) is the view
 //!   that `pomona-ransac` works with; constraints ([`RadiusWindow`],
 //!   [`DistanceWindow`]) go with it.
 //!
@@ -41,19 +41,39 @@
 //!
 //! Cameras, noise models, what the points belong to.
 
+mod capsule;
+mod chart;
+mod circle;
 mod constraint;
 mod coordinate;
+mod cylinder;
+mod held;
+mod levenberg;
 mod line;
+mod measure;
 mod plane;
 mod points;
+mod prior;
 mod simd;
 mod sphere;
 
-pub use constraint::{DistanceWindow, RadiusWindow, WindowError};
+pub use capsule::{CapsuleEstimator, capsule_along};
+pub use circle::{CircleEstimator, circle_geometric, circle_through, circle_weighted};
+pub use constraint::{
+    AngleWindow, CenterSide, DistanceWindow, FootSide, RadiusWindow, WindowError,
+};
 pub use coordinate::Coordinate;
+pub use cylinder::{
+    CylinderEstimator, cylinder_geometric, cylinder_near_line, cylinder_through, cylinder_weighted,
+};
+pub use held::HeldRefit;
 pub use line::{LineEstimator, line_least_squares};
+pub use measure::{Centered, Directed, Round, Straight};
 pub use plane::{PlaneEstimator, plane_least_squares};
 pub use points::{Points, PointsError};
+pub use prior::{PriorError, RadiusPrior};
 pub use sphere::{
-    SphereEstimator, SphereRefit, sphere_geometric, sphere_least_squares, sphere_through,
+    FourPoints, SphereEstimator, SphereRefit, SphereSample, ThreePointsAndRadius, TwoNormals,
+    sphere_geometric, sphere_least_squares, sphere_through, sphere_through_normals,
+    sphere_weighted, spheres_of_radius,
 };

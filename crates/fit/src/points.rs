@@ -1,4 +1,5 @@
 use crate::Coordinate;
+use crate::prior::Knowledge;
 use nalgebra::Point3;
 use std::ops::Range;
 use thiserror::Error;
@@ -78,6 +79,21 @@ impl<'a, T: Coordinate> Points<'a, T> {
             &self.z[block],
         )
     }
+}
+
+/// Points with the weights that a refit gives them: 1/σ² where their σ is known, else 1, times
+/// `weights` if there are any (a point beyond their end has none).
+pub(crate) fn weighted<'s, T: Coordinate>(
+    points: &'s Points<'_, T>,
+    indices: &'s [usize],
+    weights: Option<&'s [f64]>,
+    knowledge: Option<Knowledge>,
+) -> impl Iterator<Item = (Point3<f64>, f64)> + Clone + 's {
+    let unit = knowledge.map_or(1.0, |k| k.point_sigma.powi(-2));
+    indices.iter().enumerate().map(move |(n, &i)| {
+        let weight = weights.map_or(1.0, |w| w.get(n).copied().unwrap_or(0.0));
+        (points.get(i), unit * weight)
+    })
 }
 
 /// Centroid of points, and the largest distance of one from it along an axis;

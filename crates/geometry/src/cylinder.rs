@@ -22,6 +22,14 @@ impl Cylinder {
     pub fn signed_distance(&self, point: &Point3<f64>) -> f64 {
         self.axis.distance(point) - self.radius
     }
+
+    /// The surface point nearest to `point`, or `None` on the axis, where a whole circle is.
+    pub fn project(&self, point: &Point3<f64>) -> Option<Point3<f64>> {
+        let foot = self.axis.foot(point);
+        let offset = point - foot;
+        let norm = offset.norm();
+        (norm > 0.0).then(|| foot + offset * (self.radius / norm))
+    }
 }
 
 #[cfg(test)]
@@ -35,6 +43,9 @@ mod tests {
         let cylinder = Cylinder::new(axis, 2.0).unwrap();
         assert_eq!(cylinder.signed_distance(&Point3::new(-7.0, 3.0, 4.0)), 3.0);
         assert_eq!(cylinder.signed_distance(&Point3::new(-7.0, 0.0, 0.0)), -2.0);
+        let on_surface = cylinder.project(&Point3::new(-7.0, 3.0, 4.0)).unwrap();
+        assert!((on_surface - Point3::new(-7.0, 1.2, 1.6)).norm() < 1e-15);
+        assert!(cylinder.project(&Point3::new(-7.0, 0.0, 0.0)).is_none());
         assert!(Cylinder::new(axis, 0.0).is_none());
         assert!(Cylinder::new(axis, f64::INFINITY).is_none());
     }

@@ -29,6 +29,9 @@
 
 mod aabb;
 mod angle;
+mod basis;
+mod capsule;
+mod circle;
 mod cylinder;
 mod line;
 mod plane;
@@ -37,6 +40,9 @@ mod sphere;
 
 pub use aabb::Aabb;
 pub use angle::{angle_between, angle_between_axes};
+pub use basis::across;
+pub use capsule::Capsule;
+pub use circle::Circle;
 pub use cylinder::Cylinder;
 pub use line::Line;
 pub use plane::Plane;

@@ -26,6 +26,20 @@ pub trait Constraint<E: Estimator>: Sync {
 
     /// Whether a model obeys the rule. A model with NaN should not.
     fn allows_model(&self, estimator: &E, model: &E::Model) -> bool;
+
+    /// A model in place of a `refit` that the rule refuses: the best that obeys it for these
+    /// inliers and weights (`None` where each counts 1). By default there is none, and the refit is refused.
+    ///
+    /// All rules are asked about what it gives before it is taken.
+    fn restore(
+        &self,
+        _estimator: &E,
+        _inliers: &[usize],
+        _weights: Option<&[f64]>,
+        _refit: &E::Model,
+    ) -> Option<E::Model> {
+        None
+    }
 }
 
 /// Any number of [`Constraint`]s, built by [`Ransac::constraint`](crate::Ransac::constraint).
@@ -48,6 +62,18 @@ pub trait Constraints<E: Estimator>: Sync {
 
     /// The first rule that refuses a model, if any does.
     fn refusing_model(&self, estimator: &E, model: &E::Model) -> Option<usize>;
+
+    /// What a rule gives in place of a refit that it refuses: [`Constraint::restore`].
+    fn restore(
+        &self,
+        _rule: usize,
+        _estimator: &E,
+        _inliers: &[usize],
+        _weights: Option<&[f64]>,
+        _refit: &E::Model,
+    ) -> Option<E::Model> {
+        None
+    }
 }
 
 /// No constraint at all.
@@ -99,5 +125,21 @@ impl<E: Estimator, A: Constraints<E>, B: Constraint<E>> Constraints<E> for Chain
         self.earlier
             .refusing_model(estimator, model)
             .or_else(|| (!self.last.allows_model(estimator, model)).then(|| self.earlier.len()))
+    }
+
+    fn restore(
+        &self,
+        rule: usize,
+        estimator: &E,
+        inliers: &[usize],
+        weights: Option<&[f64]>,
+        refit: &E::Model,
+    ) -> Option<E::Model> {
+        if rule < self.earlier.len() {
+            self.earlier
+                .restore(rule, estimator, inliers, weights, refit)
+        } else {
+            self.last.restore(estimator, inliers, weights, refit)
+        }
     }
 }

@@ -33,7 +33,7 @@ impl<E: Estimator, S: Scorer<E>, C: Constraints<E>> Refiner<'_, E, S, C> {
     pub fn refit(&mut self, model: &E::Model) -> Option<E::Model> {
         self.scorer.select(self.estimator, model, self.inliers);
         let refitted = self.estimator.refit(self.inliers, model);
-        self.allow(refitted)
+        self.allow(refitted, false)
     }
 
     /// The model refitted to its own inliers, each with the weight `weigh(residual/threshold)`
@@ -57,18 +57,28 @@ impl<E: Estimator, S: Scorer<E>, C: Constraints<E>> Refiner<'_, E, S, C> {
             weights.push(scorer.weight_of(datum) * weigh(fraction));
         });
         let refitted = estimator.refit_weighted(inliers, weights, model);
-        self.allow(refitted)
+        self.allow(refitted, true)
     }
 
-    /// Counts a refit, and asks the constraints again.
-    fn allow(&mut self, refitted: Option<E::Model>) -> Option<E::Model> {
+    /// Counts a refit, and asks the constraints again; one that refuses it may restore it.
+    fn allow(&mut self, refitted: Option<E::Model>, weighted: bool) -> Option<E::Model> {
         self.counts.refits += 1;
         let refitted = refitted?;
-        if let Some(rule) = self.constraints.refusing_model(self.estimator, &refitted) {
+        let Some(rule) = self.constraints.refusing_model(self.estimator, &refitted) else {
+            return Some(refitted);
+        };
+        let weights = weighted.then_some(self.weights.as_slice());
+        let restored = self
+            .constraints
+            .restore(rule, self.estimator, self.inliers, weights, &refitted)
+            .filter(|model| {
+                let refusing = self.constraints.refusing_model(self.estimator, model);
+                refusing.is_none()
+            });
+        if restored.is_none() {
             self.counts.rejection(rule).refits += 1;
-            return None;
         }
-        Some(refitted)
+        restored
     }
 
     /// The score of a model where it exceeds `bound`.

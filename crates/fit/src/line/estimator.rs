@@ -1,3 +1,7 @@
+use crate::held::HeldRefit;
+use crate::levenberg::Objective;
+use crate::line::LineChart;
+use crate::points::{centroid_and_extent, weighted};
 use crate::{Coordinate, Points, line_least_squares, simd};
 use nalgebra::Vector3;
 use pomona_geometry::Line;
@@ -87,6 +91,10 @@ impl<T: Coordinate> Estimator for LineEstimator<'_, T> {
         line_least_squares(self.points.select(inliers))
     }
 
+    fn refit_weighted(&self, inliers: &[usize], weights: &[f64], current: &Line) -> Option<Line> {
+        self.iterated(inliers, Some(weights), current, None)
+    }
+
     fn residuals(&self, line: &Line, block: Range<usize>, out: &mut [f64]) {
         for (r, i) in out.iter_mut().zip(block) {
             *r = line.distance(&self.points.get(i));
@@ -113,5 +121,42 @@ impl<T: Coordinate> Estimator for LineEstimator<'_, T> {
                 .filter(|(((x, y), z), _)| tube.holds(**x, **y, **z))
                 .map(|(_, i)| i),
         );
+    }
+}
+
+impl<T: Coordinate> LineEstimator<'_, T> {
+    fn iterated(
+        &self,
+        inliers: &[usize],
+        weights: Option<&[f64]>,
+        start: &Line,
+        condition: Option<&dyn Fn(&Line) -> f64>,
+    ) -> Option<Line> {
+        let points = weighted(&self.points, inliers, weights, None).filter(|&(_, w)| w != 0.0);
+        if points.clone().count() < 2 {
+            return None;
+        }
+        let (centroid, _) = centroid_and_extent(points.clone().map(|(p, _)| p))?;
+        let start = Line {
+            point: start.foot(&centroid),
+            ..*start
+        };
+        let objective = Objective {
+            points,
+            prior: None,
+        };
+        objective.minimize::<LineChart, 4, 2>(&start, condition)
+    }
+}
+
+impl<T: Coordinate> HeldRefit for LineEstimator<'_, T> {
+    fn refit_held(
+        &self,
+        inliers: &[usize],
+        weights: Option<&[f64]>,
+        start: &Line,
+        condition: &dyn Fn(&Line) -> f64,
+    ) -> Option<Line> {
+        self.iterated(inliers, weights, start, Some(condition))
     }
 }

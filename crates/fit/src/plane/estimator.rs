@@ -1,3 +1,7 @@
+use crate::held::HeldRefit;
+use crate::levenberg::Objective;
+use crate::plane::PlaneChart;
+use crate::points::{centroid_and_extent, weighted};
 use crate::{Coordinate, Points, plane_least_squares};
 use pomona_geometry::Plane;
 use pomona_ransac::{Candidates, Estimator};
@@ -36,9 +40,46 @@ impl<T: Coordinate> Estimator for PlaneEstimator<'_, T> {
         plane_least_squares(self.points.select(inliers))
     }
 
+    fn refit_weighted(&self, inliers: &[usize], weights: &[f64], current: &Plane) -> Option<Plane> {
+        self.iterated(inliers, Some(weights), current, None)
+    }
+
     fn residuals(&self, plane: &Plane, block: Range<usize>, out: &mut [f64]) {
         for (r, i) in out.iter_mut().zip(block) {
             *r = plane.signed_distance(&self.points.get(i)).abs();
         }
+    }
+}
+
+impl<T: Coordinate> PlaneEstimator<'_, T> {
+    fn iterated(
+        &self,
+        inliers: &[usize],
+        weights: Option<&[f64]>,
+        start: &Plane,
+        condition: Option<&dyn Fn(&Plane) -> f64>,
+    ) -> Option<Plane> {
+        let points = weighted(&self.points, inliers, weights, None).filter(|&(_, w)| w != 0.0);
+        if points.clone().count() < 3 {
+            return None;
+        }
+        centroid_and_extent(points.clone().map(|(p, _)| p))?;
+        let objective = Objective {
+            points,
+            prior: None,
+        };
+        objective.minimize::<PlaneChart, 3, 1>(start, condition)
+    }
+}
+
+impl<T: Coordinate> HeldRefit for PlaneEstimator<'_, T> {
+    fn refit_held(
+        &self,
+        inliers: &[usize],
+        weights: Option<&[f64]>,
+        start: &Plane,
+        condition: &dyn Fn(&Plane) -> f64,
+    ) -> Option<Plane> {
+        self.iterated(inliers, weights, start, Some(condition))
     }
 }

@@ -1,4 +1,8 @@
-use crate::{Coordinate, Points, simd, sphere_geometric, sphere_least_squares, sphere_through};
+use crate::held::HeldRefit;
+use crate::points::weighted;
+use crate::prior::Knowledge;
+use crate::sphere::{FourPoints, SphereSample, sphere_held};
+use crate::{Coordinate, Points, PriorError, RadiusPrior, simd, sphere_least_squares};
 use pomona_geometry::Sphere;
 use pomona_ransac::{Candidates, Estimator};
 use std::ops::Range;
@@ -6,24 +10,71 @@ use std::ops::Range;
 /// How a sphere is refitted to its inliers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum SphereRefit {
-    /// [`sphere_least_squares`]: linear, as in Gao et al. 2022.
+    /// [`sphere_least_squares`]: linear, as in Gao et al. 2022. Weights are not heeded.
     #[default]
     Algebraic,
-    /// [`sphere_geometric`], started from the model so far: the distances themselves.
+    /// [`sphere_geometric`](crate::sphere_geometric), started from the model so far: the distances
+    /// themselves, each with its weight where the engine gives one.
     Geometric,
 }
 
 /// Spheres through points, for `pomona-ransac`. A residual is the distance from the surface.
+///
+/// `S` is what a minimal sample is: four points unless [`sampling`](Self::sampling) says otherwise.
 #[derive(Clone, Copy, Debug)]
-pub struct SphereEstimator<'a, T> {
+pub struct SphereEstimator<'a, T, S = FourPoints> {
     points: Points<'a, T>,
     refit: SphereRefit,
+    sample: S,
+    knowledge: Option<Knowledge>,
 }
 
 impl<'a, T: Coordinate> SphereEstimator<'a, T> {
     /// An estimator over a view of points.
     pub fn new(points: Points<'a, T>, refit: SphereRefit) -> Self {
-        Self { points, refit }
+        Self {
+            points,
+            refit,
+            sample: FourPoints,
+            knowledge: None,
+        }
+    }
+}
+
+impl<'a, T: Coordinate, S> SphereEstimator<'a, T, S> {
+    /// The same with another kind of minimal sample.
+    pub fn sampling<S2>(self, sample: S2) -> SphereEstimator<'a, T, S2> {
+        SphereEstimator {
+            points: self.points,
+            refit: self.refit,
+            sample,
+            knowledge: self.knowledge,
+        }
+    }
+
+    /// Refits use a prior on the radius, and are geometric; `point_sigma` is the standard
+    /// deviation of the points about the surface.
+    ///
+    /// # Errors
+    ///
+    /// Unless `point_sigma` is positive and finite.
+    pub fn prior(self, prior: RadiusPrior, point_sigma: f64) -> Result<Self, PriorError> {
+        Ok(Self {
+            refit: SphereRefit::Geometric,
+            knowledge: Some(Knowledge::new(prior, point_sigma)?),
+            ..self
+        })
+    }
+
+    fn geometric(
+        &self,
+        inliers: &[usize],
+        weights: Option<&[f64]>,
+        current: &Sphere,
+        condition: Option<&dyn Fn(&Sphere) -> f64>,
+    ) -> Option<Sphere> {
+        let points = weighted(&self.points, inliers, weights, self.knowledge);
+        sphere_held(points, current, self.knowledge.map(|k| k.prior), condition)
     }
 }
 
@@ -73,26 +124,35 @@ impl<T: Coordinate> Shell<T> {
     }
 }
 
-impl<T: Coordinate> Estimator for SphereEstimator<'_, T> {
+impl<T: Coordinate, S: SphereSample<T>> Estimator for SphereEstimator<'_, T, S> {
     type Model = Sphere;
-    const SAMPLE_SIZE: usize = 4;
+    const SAMPLE_SIZE: usize = S::SIZE;
+    const MAX_MODELS: usize = S::MODELS;
 
     fn len(&self) -> usize {
         self.points.len()
     }
 
     fn fit(&self, sample: &[usize], candidates: &mut Candidates<Sphere>) {
-        let &[i, j, k, l] = sample else { return };
-        if let Some(sphere) = sphere_through([i, j, k, l].map(|i| self.points.get(i))) {
-            candidates.push(sphere);
-        }
+        self.sample.fit(&self.points, sample, candidates);
     }
 
     fn refit(&self, inliers: &[usize], current: &Sphere) -> Option<Sphere> {
-        let points = self.points.select(inliers);
         match self.refit {
-            SphereRefit::Algebraic => sphere_least_squares(points),
-            SphereRefit::Geometric => sphere_geometric(points, current),
+            SphereRefit::Algebraic => sphere_least_squares(self.points.select(inliers)),
+            SphereRefit::Geometric => self.geometric(inliers, None, current, None),
+        }
+    }
+
+    fn refit_weighted(
+        &self,
+        inliers: &[usize],
+        weights: &[f64],
+        current: &Sphere,
+    ) -> Option<Sphere> {
+        match self.refit {
+            SphereRefit::Algebraic => self.refit(inliers, current),
+            SphereRefit::Geometric => self.geometric(inliers, Some(weights), current, None),
         }
     }
 
@@ -122,5 +182,17 @@ impl<T: Coordinate> Estimator for SphereEstimator<'_, T> {
                 .filter(|(((x, y), z), _)| shell.holds(**x, **y, **z))
                 .map(|(_, i)| i),
         );
+    }
+}
+
+impl<T: Coordinate, S: SphereSample<T>> HeldRefit for SphereEstimator<'_, T, S> {
+    fn refit_held(
+        &self,
+        inliers: &[usize],
+        weights: Option<&[f64]>,
+        start: &Sphere,
+        condition: &dyn Fn(&Sphere) -> f64,
+    ) -> Option<Sphere> {
+        self.geometric(inliers, weights, start, Some(condition))
     }
 }

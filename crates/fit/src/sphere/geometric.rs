@@ -1,34 +1,83 @@
-use super::normal::NormalEquations;
+use crate::RadiusPrior;
+use crate::levenberg::{Condition, Objective};
+use crate::sphere::SphereChart;
+use crate::sphere::normal::NormalEquations;
 use nalgebra::{Matrix4, Point3, Vector4};
 use pomona_geometry::Sphere;
 
 /// The sphere with the least sum of squared distances of the points from its surface:
 /// minimises Σ (‖p − c‖ − r)², starting from `start`.
 ///
-/// Newton's method on the centre and radius, damped as by Levenberg and Marquardt (residuals as in Ahn, Rauh and Warnecke 2001, "Least-squares
-/// orthogonal distances fitting of circle, sphere, ellipse, hyperbola, and parabola",
-/// doi 10.1016/S0031-3203(00)00152-7, section 2; on a small cap Gauss–Newton steps, without the second derivatives,
-/// take three times as many), until a step moves less than 10⁻⁷ of the radius, which leaves the square of that. The sum never grows from one step to the next, so the result is at least as good as `start`.
+/// [`sphere_weighted`] with a weight of 1 for each point and no prior on the radius.
 ///
 /// `None` for fewer than four points and where anything is not finite.
-#[expect(
-    clippy::needless_pass_by_value,
-    reason = "an iterator is taken whole, as by the other solvers"
-)]
 pub fn sphere_geometric(
     points: impl ExactSizeIterator<Item = Point3<f64>> + Clone,
     start: &Sphere,
 ) -> Option<Sphere> {
-    const MAX_STEPS: usize = 100;
-    const CONVERGED: f64 = 1e-7;
-    if points.len() < 4 {
+    sphere_weighted(points.map(|p| (p, 1.0)), start, None)
+}
+
+/// The sphere that minimises Σ wᵢ (‖pᵢ − c‖ − r)², plus ((r − mean)/sigma)² where a prior on the
+/// radius is given, near `start`.
+///
+/// Each item is a point and its weight, not negative: 1/σ² of the point's noise σ across the
+/// surface, times whatever a robust loss makes of it. With a prior the weights must have that
+/// unit; without one only their ratios matter. Points of zero weight are left out.
+///
+/// Newton's method on the centre and radius, damped as by Levenberg and Marquardt; residuals as in
+/// Ahn, Rauh and Warnecke 2001, "Least-squares orthogonal distances fitting of circle, sphere, ellipse,
+/// hyperbola, and parabola", doi 10.1016/S0031-3203(00)00152-7, section 2. On a small cap Gauss–Newton
+/// steps, without the second derivatives, are three times as many. The sum never grows from one step
+/// to the next, so the result is at least as good as `start`. It ends with a step of less than 10⁻⁷ of the
+/// radius, which leaves the square of that. A point at the centre has no direction, and pulls at the
+/// radius alone.
+///
+/// `None` for fewer than four points of positive weight (three with a prior) and where anything is not finite.
+pub fn sphere_weighted(
+    points: impl Iterator<Item = (Point3<f64>, f64)> + Clone,
+    start: &Sphere,
+    prior: Option<RadiusPrior>,
+) -> Option<Sphere> {
+    sphere_held(points, start, prior, None)
+}
+
+/// [`sphere_weighted`] among the spheres that fulfil a condition, if one is given.
+pub(crate) fn sphere_held(
+    points: impl Iterator<Item = (Point3<f64>, f64)> + Clone,
+    start: &Sphere,
+    prior: Option<RadiusPrior>,
+    condition: Option<&Condition<'_, Sphere>>,
+) -> Option<Sphere> {
+    if condition.is_none() {
+        return newton(points, start, prior);
+    }
+    let points = points.filter(|&(_, weight)| weight != 0.0);
+    if points.clone().count() + usize::from(prior.is_some()) < 4 {
         return None;
     }
-    let equations =
-        |sphere: &Sphere| NormalEquations::new(points.clone().map(|p| (p, 1.0)), sphere);
+    Objective { points, prior }.minimize::<SphereChart, 4, 1>(start, condition)
+}
+
+/// [`sphere_weighted`], among all spheres.
+fn newton(
+    points: impl Iterator<Item = (Point3<f64>, f64)> + Clone,
+    start: &Sphere,
+    prior: Option<RadiusPrior>,
+) -> Option<Sphere> {
+    const MAX_STEPS: usize = 100;
+    const CONVERGED: f64 = 1e-7;
+    let equations = |sphere: &Sphere| {
+        let mut equations = NormalEquations::new(points.clone(), sphere);
+        if let Some(prior) = prior {
+            equations.add_prior(prior, sphere.radius);
+        }
+        equations
+    };
     let mut sphere = *start;
     let mut current = equations(&sphere);
-    if !current.objective.is_finite() {
+    let enough = current.points + usize::from(prior.is_some()) >= 4;
+    if !(enough && current.objective.is_finite()) {
         return None;
     }
     let mut damping = 1e-6;

@@ -1,5 +1,6 @@
 //! The sums over points that a step of a sphere's geometric fit needs, in one pass.
 
+use crate::RadiusPrior;
 use nalgebra::{Matrix4, Point3, Vector4};
 use pomona_geometry::Sphere;
 use pulp::{Arch, Simd, WithSimd};
@@ -22,6 +23,8 @@ pub(super) struct NormalEquations {
     pub(super) curvature: Matrix4<f64>,
     /// Sum of the weighted squared residuals.
     pub(super) objective: f64,
+    /// How many points have a weight.
+    pub(super) points: usize,
 }
 
 impl NormalEquations {
@@ -30,7 +33,9 @@ impl NormalEquations {
         let arch = Arch::new();
         let mut sums = [[0.0; LANES]; SUMS];
         let mut chunk = Chunk::new();
+        let mut used = 0;
         for (p, weight) in points {
+            used += usize::from(weight != 0.0);
             chunk.push(p - sphere.center, weight);
             if chunk.filled == CHUNK {
                 arch.dispatch(Pass(&chunk, sphere.radius, &mut sums));
@@ -64,7 +69,16 @@ impl NormalEquations {
             gradient: Vector4::new(xf, yf, zf, f),
             curvature,
             objective: ff,
+            points: used,
         }
+    }
+
+    /// Adds the square of the radius's deviation from what is known of it.
+    pub(super) fn add_prior(&mut self, prior: RadiusPrior, radius: f64) {
+        let deviation = prior.deviation(radius);
+        self.matrix[(3, 3)] += prior.sigma().powi(-2);
+        self.gradient[3] -= deviation / prior.sigma();
+        self.objective += deviation * deviation;
     }
 }
 

@@ -1,0 +1,5 @@
+mod estimator;
+mod extent;
+
+pub use estimator::CapsuleEstimator;
+pub use extent::capsule_along;

@@ -1,0 +1,96 @@
+use crate::circle::circle_held;
+use crate::held::HeldRefit;
+use crate::points::weighted;
+use crate::prior::Knowledge;
+use crate::{Coordinate, Points, PriorError, RadiusPrior, circle_through};
+use pomona_geometry::Circle;
+use pomona_ransac::{Candidates, Estimator};
+use std::ops::Range;
+
+/// Circles in space through points, for `pomona-ransac`. A residual is the distance from the
+/// circle's curve.
+///
+/// A sample is three points; a refit is [`circle_weighted`](crate::circle_weighted), started from the model so far.
+#[derive(Clone, Copy, Debug)]
+pub struct CircleEstimator<'a, T> {
+    points: Points<'a, T>,
+    knowledge: Option<Knowledge>,
+}
+
+impl<'a, T: Coordinate> CircleEstimator<'a, T> {
+    /// An estimator over a view of points.
+    pub fn new(points: Points<'a, T>) -> Self {
+        Self {
+            points,
+            knowledge: None,
+        }
+    }
+
+    /// Refits use a prior on the radius; `point_sigma` is the standard deviation of the points about the curve.
+    ///
+    /// # Errors
+    ///
+    /// Unless `point_sigma` is positive and finite.
+    pub fn prior(self, prior: RadiusPrior, point_sigma: f64) -> Result<Self, PriorError> {
+        let knowledge = Some(Knowledge::new(prior, point_sigma)?);
+        Ok(Self { knowledge, ..self })
+    }
+
+    fn geometric(
+        &self,
+        inliers: &[usize],
+        weights: Option<&[f64]>,
+        current: &Circle,
+        condition: Option<&dyn Fn(&Circle) -> f64>,
+    ) -> Option<Circle> {
+        let points = weighted(&self.points, inliers, weights, self.knowledge);
+        circle_held(points, current, self.knowledge.map(|k| k.prior), condition)
+    }
+}
+
+impl<T: Coordinate> Estimator for CircleEstimator<'_, T> {
+    type Model = Circle;
+    const SAMPLE_SIZE: usize = 3;
+
+    fn len(&self) -> usize {
+        self.points.len()
+    }
+
+    fn fit(&self, sample: &[usize], candidates: &mut Candidates<Circle>) {
+        let &[i, j, k] = sample else { return };
+        if let Some(circle) = circle_through([i, j, k].map(|i| self.points.get(i))) {
+            candidates.push(circle);
+        }
+    }
+
+    fn refit(&self, inliers: &[usize], current: &Circle) -> Option<Circle> {
+        self.geometric(inliers, None, current, None)
+    }
+
+    fn refit_weighted(
+        &self,
+        inliers: &[usize],
+        weights: &[f64],
+        current: &Circle,
+    ) -> Option<Circle> {
+        self.geometric(inliers, Some(weights), current, None)
+    }
+
+    fn residuals(&self, circle: &Circle, block: Range<usize>, out: &mut [f64]) {
+        for (r, i) in out.iter_mut().zip(block) {
+            *r = circle.distance(&self.points.get(i));
+        }
+    }
+}
+
+impl<T: Coordinate> HeldRefit for CircleEstimator<'_, T> {
+    fn refit_held(
+        &self,
+        inliers: &[usize],
+        weights: Option<&[f64]>,
+        start: &Circle,
+        condition: &dyn Fn(&Circle) -> f64,
+    ) -> Option<Circle> {
+        self.geometric(inliers, weights, start, Some(condition))
+    }
+}

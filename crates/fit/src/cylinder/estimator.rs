@@ -1,0 +1,105 @@
+use crate::cylinder::cylinder_held;
+use crate::held::HeldRefit;
+use crate::points::weighted;
+use crate::prior::Knowledge;
+use crate::{Coordinate, Points, PriorError, RadiusPrior, cylinder_through};
+use pomona_geometry::Cylinder;
+use pomona_ransac::{Candidates, Estimator};
+use std::ops::Range;
+
+/// Cylinders through points with normals, for `pomona-ransac`. A residual is the distance from the
+/// surface; the normals (of either sign) make models and are not scored.
+///
+/// A refit is [`cylinder_weighted`](crate::cylinder_weighted), started from the model so far.
+#[derive(Clone, Copy, Debug)]
+pub struct CylinderEstimator<'a, T> {
+    points: Points<'a, T>,
+    normals: Points<'a, T>,
+    knowledge: Option<Knowledge>,
+}
+
+impl<'a, T: Coordinate> CylinderEstimator<'a, T> {
+    /// An estimator over a view of points and a view of as many normals.
+    ///
+    /// Points beyond the last normal are scored, but a sample with one gives no model.
+    pub fn new(points: Points<'a, T>, normals: Points<'a, T>) -> Self {
+        Self {
+            points,
+            normals,
+            knowledge: None,
+        }
+    }
+
+    /// Refits use a prior on the radius; `point_sigma` is the standard deviation of the points about the surface.
+    ///
+    /// # Errors
+    ///
+    /// Unless `point_sigma` is positive and finite.
+    pub fn prior(self, prior: RadiusPrior, point_sigma: f64) -> Result<Self, PriorError> {
+        let knowledge = Some(Knowledge::new(prior, point_sigma)?);
+        Ok(Self { knowledge, ..self })
+    }
+
+    fn geometric(
+        &self,
+        inliers: &[usize],
+        weights: Option<&[f64]>,
+        current: &Cylinder,
+        condition: Option<&dyn Fn(&Cylinder) -> f64>,
+    ) -> Option<Cylinder> {
+        let points = weighted(&self.points, inliers, weights, self.knowledge);
+        cylinder_held(points, current, self.knowledge.map(|k| k.prior), condition)
+    }
+}
+
+impl<T: Coordinate> Estimator for CylinderEstimator<'_, T> {
+    type Model = Cylinder;
+    const SAMPLE_SIZE: usize = 2;
+
+    fn len(&self) -> usize {
+        self.points.len()
+    }
+
+    fn fit(&self, sample: &[usize], candidates: &mut Candidates<Cylinder>) {
+        let &[i, j] = sample else { return };
+        if i.max(j) >= self.normals.len() {
+            return;
+        }
+        let points = [i, j].map(|i| self.points.get(i));
+        let normals = [i, j].map(|i| self.normals.get(i).coords);
+        if let Some(cylinder) = cylinder_through(points, normals) {
+            candidates.push(cylinder);
+        }
+    }
+
+    fn refit(&self, inliers: &[usize], current: &Cylinder) -> Option<Cylinder> {
+        self.geometric(inliers, None, current, None)
+    }
+
+    fn refit_weighted(
+        &self,
+        inliers: &[usize],
+        weights: &[f64],
+        current: &Cylinder,
+    ) -> Option<Cylinder> {
+        self.geometric(inliers, Some(weights), current, None)
+    }
+
+    fn residuals(&self, cylinder: &Cylinder, block: Range<usize>, out: &mut [f64]) {
+        for (r, i) in out.iter_mut().zip(block) {
+            *r = cylinder.signed_distance(&self.points.get(i)).abs();
+        }
+    }
+}
+
+impl<T: Coordinate> HeldRefit for CylinderEstimator<'_, T> {
+    fn refit_held(
+        &self,
+        inliers: &[usize],
+        weights: Option<&[f64]>,
+        start: &Cylinder,
+        condition: &dyn Fn(&Cylinder) -> f64,
+    ) -> Option<Cylinder> {
+        self.geometric(inliers, weights, start, Some(condition))
+    }
+}

@@ -1,7 +1,7 @@
 use crate::{
     Chain, Constraints, Estimator, FixedCount, LocalOptimization, Lossless, NoRefit, Preemption,
-    RansacError, Report, Sampler, Scorer, Stopping, Unconstrained, Uniform, Workspace,
-    search::Search,
+    RansacError, Report, Sampler, Scored, Scorer, Stopping, Unconstrained, Uniform, Workspace,
+    runners_up::Keep, search::Search,
 };
 use rand_core::Rng;
 
@@ -248,5 +248,39 @@ impl<S, P, C, L, T, B> Ransac<S, P, C, L, T, B> {
     {
         let report = Search::new(self, estimator, workspace, rng.next_u64()).report()?;
         Ok(workspace.report.insert(report))
+    }
+
+    /// Searches, and gives not the best model alone but up to `models` that differ: the best hypothesis
+    /// and those next to it, however low their scores, each after its last refit.
+    ///
+    /// They are the candidates among which a [`Competition`](crate::Competition) chooses. No hypothesis is given up by
+    /// the lossless bound, and a rule that waits to be confident of the best model ends too early for the
+    /// smaller ones: better a [`FixedCount`]. One number is taken from `rng`.
+    ///
+    /// # Errors
+    ///
+    /// As [`run`](Self::run); few inliers are none.
+    pub fn candidates<E, R>(
+        &self,
+        estimator: &E,
+        models: usize,
+        rng: &mut R,
+    ) -> Result<Vec<Scored<E::Model>>, RansacError>
+    where
+        E: Estimator,
+        R: Rng + ?Sized,
+        P: Sampler<E>,
+        S: Scorer<E>,
+        C: Constraints<E>,
+        L: LocalOptimization<E>,
+        T: Stopping,
+        B: Preemption,
+    {
+        let mut workspace = Workspace::new();
+        let keep = Keep {
+            models: models.saturating_sub(1),
+            share: 0.0,
+        };
+        Search::keeping(keep, self, estimator, &mut workspace, rng.next_u64()).candidates()
     }
 }

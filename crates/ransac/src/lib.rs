@@ -79,6 +79,9 @@
 //!   inliers and residuals belong together. Where the estimator gives derivatives
 //!   ([`Estimator::linearize`]), it tells the noise and the model's [`Covariance`].
 //!
+//! Where the data hold several structures, [`Sequential`] finds one after the other among the
+//! data that are left, and a [`Competition`] chooses among candidate models, which share out the data.
+//!
 //! A [`Workspace`] is the memory of a search: with one that is used again,
 //! [`Ransac::run_with`] allocates nothing.
 //!
@@ -123,6 +126,7 @@ mod scorer;
 mod search;
 mod shuffle;
 mod stopping;
+mod structures;
 mod time_budget;
 mod workspace;
 
@@ -149,6 +153,7 @@ pub use scorer::{
 };
 pub use shuffle::Shuffle;
 pub use stopping::{Either, FixedCount, Progress, StopReason, Stopping, Until};
+pub use structures::{Competition, Ended, Extraction, Instance, Selection, Sequential};
 pub use time_budget::TimeBudget;
 pub use workspace::Workspace;
 

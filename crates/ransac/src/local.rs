@@ -53,11 +53,7 @@ impl<E: Estimator, S: Scorer<E>, C: Constraints<E>> Refiner<'_, E, S, C> {
         scorer.select(estimator, model, inliers);
         weights.clear();
         for_each_residual(*estimator, model, inliers, |datum, residual| {
-            let fraction = if residual > 0.0 {
-                residual / scorer.threshold_of(model, datum)
-            } else {
-                0.0
-            };
+            let fraction = scorer.fraction_of(model, datum, residual);
             weights.push(scorer.weight_of(datum) * weigh(fraction));
         });
         let refitted = estimator.refit_weighted(inliers, weights, model);

@@ -3,6 +3,15 @@ use crate::Scored;
 /// Two hypotheses whose inliers have more than this share of their union in common are taken for one.
 const SAME: f64 = 0.8;
 
+/// Which runners-up a search keeps.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Keep {
+    /// How many at most.
+    pub(crate) models: usize,
+    /// Share of the best score that each exceeds.
+    pub(crate) share: f64,
+}
+
 /// The best distinct hypotheses of a search but for the best, for a last refit of each.
 ///
 /// Offered in the order of the iterations, so that what is kept depends on neither threads nor rounds.

@@ -51,9 +51,27 @@ pub trait Scorer<E: Estimator>: Sync {
         1.0
     }
 
+    /// Gain of a datum of weight 1 whose residual is `fraction` of its threshold, between 0 and 1; 1, that of
+    /// an inlier that counts as one, by default.
+    ///
+    /// A [`Competition`](crate::Competition) shares out the data by it. Times
+    /// [`weight_of`](Self::weight_of) and summed over the inliers it must be the score.
+    fn gain_at(&self, _fraction: f64) -> f64 {
+        1.0
+    }
+
     /// The most that the data of `range`, of any length, can gain: one each unless the scorer knows better.
     fn most_gain(&self, _estimator: &E, range: Range<usize>) -> f64 {
         range.len() as f64
+    }
+
+    /// The fraction of its threshold that a residual of an inlier is; 0 for none, whatever the threshold.
+    fn fraction_of(&self, model: &E::Model, datum: usize, residual: f64) -> f64 {
+        if residual > 0.0 {
+            residual / self.threshold_of(model, datum)
+        } else {
+            0.0
+        }
     }
 
     /// The score of `model` where it exceeds `bound`.
@@ -131,6 +149,10 @@ impl<E: Estimator, T: Threshold<E::Model>> Scorer<E> for Msac<T> {
         estimator.truncated_gain(model, block, self.threshold.for_model(model))
     }
 
+    fn gain_at(&self, fraction: f64) -> f64 {
+        Quadratic.gain(fraction)
+    }
+
     fn threshold(&self, model: &E::Model) -> f64 {
         self.threshold.for_model(model)
     }
@@ -162,6 +184,10 @@ impl<E: Estimator, T: Threshold<E::Model>> Scorer<E> for MarginalScore<T> {
                 gain
             }
         })
+    }
+
+    fn gain_at(&self, fraction: f64) -> f64 {
+        Marginal.gain(fraction)
     }
 
     fn threshold(&self, model: &E::Model) -> f64 {

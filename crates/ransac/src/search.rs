@@ -3,7 +3,10 @@ use crate::workspace::Buffers;
 use crate::{
     Confidence, Constraints, Counts, Estimator, LocalOptimization, Preemption, Progress, Ransac,
     RansacError, Refiner, Rejections, Report, Sampler, Scored, Scorer, StopReason, Stopping,
-    Workspace, noise::uncertainty, report::residual_statistics, runners_up::RunnersUp,
+    Workspace,
+    noise::uncertainty,
+    report::residual_statistics,
+    runners_up::{Keep, RunnersUp},
 };
 use std::ops::Range;
 
@@ -17,6 +20,7 @@ pub(crate) struct Search<'a, E: Estimator, S, P, C, L, T, B> {
     lanes: &'a mut Vec<Lane<E::Model>>,
     buffers: &'a mut Buffers,
     runners_up: &'a mut RunnersUp<E::Model>,
+    keep: Keep,
     seed: u64,
     counts: Counts,
     progress: Progress,
@@ -39,8 +43,22 @@ where
         workspace: &'a mut Workspace<E::Model>,
         seed: u64,
     ) -> Self {
-        let runners_up = parts.local.runners_up();
-        workspace.prepare::<E>(estimator.len(), runners_up, parts.settings);
+        let keep = Keep {
+            models: parts.local.runners_up(),
+            share: parts.local.near(),
+        };
+        Self::keeping(keep, parts, estimator, workspace, seed)
+    }
+
+    /// A search that keeps other runners-up than the local optimisation wants.
+    pub(crate) fn keeping(
+        keep: Keep,
+        parts: &'a Ransac<S, P, C, L, T, B>,
+        estimator: &'a E,
+        workspace: &'a mut Workspace<E::Model>,
+        seed: u64,
+    ) -> Self {
+        workspace.prepare::<E>(estimator.len(), keep.models, parts.settings);
         let rules = Constraints::<E>::len(&parts.constraints);
         let mut counts = Counts {
             rules: rules.min(crate::MAX_RULES),
@@ -59,6 +77,7 @@ where
             lanes: &mut workspace.lanes,
             buffers: &mut workspace.buffers,
             runners_up: &mut workspace.runners_up,
+            keep,
             seed,
             counts,
             progress: Progress {
@@ -72,6 +91,20 @@ where
 
     /// Searches, and reports.
     pub(crate) fn report(mut self) -> Result<Report<E::Model>, RansacError> {
+        let (best, stopped) = self.best_hypothesis()?;
+        self.finish(best, stopped)
+    }
+
+    /// Searches; the best model and the runners-up, each after its last refit.
+    pub(crate) fn candidates(mut self) -> Result<Vec<Scored<E::Model>>, RansacError> {
+        let (best, _) = self.best_hypothesis()?;
+        let mut all = Vec::with_capacity(1 + self.keep.models);
+        self.refit_each(best, |refitted| all.push(refitted));
+        Ok(all)
+    }
+
+    /// Draws and scores until the rule ends it.
+    fn best_hypothesis(&mut self) -> Result<(Scored<E::Model>, StopReason), RansacError> {
         if self.estimator.len() < E::SAMPLE_SIZE {
             return Err(RansacError::TooFewData {
                 needed: E::SAMPLE_SIZE,
@@ -86,7 +119,8 @@ where
                 break reason;
             }
         };
-        self.finish(stopped)
+        let best = self.best.take().ok_or_else(|| self.no_model())?;
+        Ok((best, stopped))
     }
 
     fn best_score(&self) -> f64 {
@@ -102,10 +136,10 @@ where
 
     /// What a runner-up of a score exceeds; the score itself where none is kept.
     fn near(&self, score: f64) -> f64 {
-        if self.parts.local.runners_up() == 0 || score == f64::NEG_INFINITY {
+        if self.keep.models == 0 || score == f64::NEG_INFINITY {
             score
         } else {
-            score.min(score * self.parts.local.near())
+            score.min(score * self.keep.share)
         }
     }
 
@@ -220,20 +254,16 @@ where
         }
     }
 
-    /// The best of the best model and the runners-up, each after its last refit.
-    fn refit_all(&mut self, best: Scored<E::Model>) -> Scored<E::Model> {
+    /// Gives the best model and the runners-up to `take`, each after its last refit.
+    fn refit_each(&mut self, best: Scored<E::Model>, mut take: impl FnMut(Scored<E::Model>)) {
         let local = &self.parts.local;
         let bound = self.near(best.score);
-        let mut best = local.finish(&mut self.refiner(), best);
+        take(local.finish(&mut self.refiner(), best));
         let mut runners_up = std::mem::take(self.runners_up);
         for near in runners_up.drain(bound) {
-            let refitted = local.finish(&mut self.refiner(), near);
-            if refitted.score > best.score {
-                best = refitted;
-            }
+            take(local.finish(&mut self.refiner(), near));
         }
         *self.runners_up = runners_up;
-        best
     }
 
     fn refiner(&mut self) -> Refiner<'_, E, S, C> {
@@ -247,17 +277,26 @@ where
         }
     }
 
-    /// The last refit, and the report of what came out of it.
-    fn finish(mut self, stopped: StopReason) -> Result<Report<E::Model>, RansacError> {
-        let needed = self.parts.settings.min_inliers.max(E::SAMPLE_SIZE);
-        let Some(best) = self.best.take() else {
-            return Err(self.no_model(needed));
+    /// The last refits, and the report of what came out of them.
+    fn finish(
+        mut self,
+        hypothesis: Scored<E::Model>,
+        stopped: StopReason,
+    ) -> Result<Report<E::Model>, RansacError> {
+        let mut best = None::<Scored<E::Model>>;
+        self.refit_each(hypothesis, |refitted| {
+            if best.as_ref().is_none_or(|b| refitted.score > b.score) {
+                best = Some(refitted);
+            }
+        });
+        let Some(Scored { model, score }) = best else {
+            return Err(self.no_model());
         };
-        let Scored { model, score } = self.refit_all(best);
         self.parts
             .scorer
             .select(self.estimator, &model, &mut self.buffers.inliers);
         let inliers = std::mem::take(&mut self.buffers.inliers);
+        let needed = self.needed();
         if inliers.len() < needed {
             let found = inliers.len();
             self.buffers.inliers = inliers;
@@ -270,6 +309,9 @@ where
         self.counts.draws = self.progress.draws;
         self.counts.accepted = self.progress.accepted;
         self.counts.hypotheses = self.progress.hypotheses;
+        let stated = self.parts.stopping.confidence(&self.progress);
+        let confidence =
+            stated.unwrap_or_else(|| 1.0 - Confidence::miss_probability(&self.progress));
         let (sigma, covariance) = uncertainty(self.estimator, &self.parts.scorer, &model, &inliers);
         Ok(Report {
             sigma,
@@ -280,7 +322,7 @@ where
                 &inliers,
                 &mut self.buffers.numbers,
             ),
-            confidence: 1.0 - Confidence::miss_probability(&self.progress),
+            confidence,
             model,
             inliers,
             score,
@@ -289,7 +331,13 @@ where
         })
     }
 
-    fn no_model(&self, needed: usize) -> RansacError {
+    /// The least number of inliers.
+    fn needed(&self) -> usize {
+        self.parts.settings.min_inliers.max(E::SAMPLE_SIZE)
+    }
+
+    fn no_model(&self) -> RansacError {
+        let needed = self.needed();
         let draws = self.progress.draws;
         let most = self
             .counts

@@ -148,6 +148,10 @@ impl<E: Estimator, K: Kernel> Scorer<E> for PerDatum<K> {
         self.weight(datum)
     }
 
+    fn gain_at(&self, fraction: f64) -> f64 {
+        self.kernel.gain(fraction)
+    }
+
     fn most_gain(&self, _: &E, range: Range<usize>) -> f64 {
         let from = |datum: usize| self.left.get(datum).copied().unwrap_or(0.0);
         if self.weights.is_empty() {

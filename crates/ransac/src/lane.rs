@@ -15,68 +15,32 @@ pub(crate) struct Task<'a, E, S, P, C, B> {
     pub(crate) bound: f64,
 }
 
-/// What one iteration's sample led to.
+/// What happened in an iteration; where a sample gave several models, each is an event.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Outcome {
-    Degenerate,
-    SampleRefused(usize),
-    /// This many hypotheses, which follow those of the iteration before.
-    Fitted(usize),
+pub(crate) struct Event {
+    pub(crate) kind: Kind,
+    /// Whether the iteration ends with it.
+    pub(crate) last: bool,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Verdict {
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Kind {
+    Degenerate,
     /// By the constraint of this number.
-    Refused(usize),
-    /// It cannot, or will hardly, exceed the round's bound.
-    GivenUp,
-    Scored,
+    SampleRefused(usize),
+    /// By the constraint of this number.
+    ModelRefused(usize),
+    /// The next one of the lane's hypotheses.
+    Hypothesis,
 }
 
 /// A model on its way through the data.
 #[derive(Debug)]
 pub(crate) struct Hypothesis<M> {
     pub(crate) model: M,
-    pub(crate) verdict: Verdict,
     pub(crate) gain: f64,
-    looks: [(usize, f64); MAX_LOOKS],
-    looked: usize,
-}
-
-impl<M> Hypothesis<M> {
-    fn new(model: M, refused: Option<usize>) -> Self {
-        Self {
-            model,
-            verdict: refused.map_or(Verdict::Scored, Verdict::Refused),
-            gain: 0.0,
-            looks: [(0, 0.0); MAX_LOOKS],
-            looked: 0,
-        }
-    }
-
-    /// Whether a search of one iteration after the other would have scored this model in full, and
-    /// found it above `bound`, its bound at that time.
-    pub(crate) fn exceeds<E, S, P, C, B>(&self, bound: f64, task: &Task<'_, E, S, P, C, B>) -> bool
-    where
-        E: Estimator<Model = M>,
-        S: Scorer<E>,
-        B: Preemption,
-    {
-        let data = task.estimator.len();
-        self.verdict == Verdict::Scored
-            && self.gain > bound
-            && (B::LOSSLESS
-                || !self.looks[..self.looked].iter().any(|&(seen, gain)| {
-                    let most_left = task.scorer.most_gain(task.estimator, seen..data);
-                    let look = Look {
-                        seen,
-                        data,
-                        gain,
-                        most_left,
-                    };
-                    task.preemption.gives_up(&look, bound)
-                }))
-    }
+    /// It cannot, or will hardly, exceed the round's bound.
+    given_up: bool,
 }
 
 /// One thread's share of a round, and the memory it works in.
@@ -84,9 +48,13 @@ impl<M> Hypothesis<M> {
 pub(crate) struct Lane<M> {
     sample: Vec<usize>,
     candidates: Candidates<M>,
-    pub(crate) outcomes: Vec<Outcome>,
+    pub(crate) events: Vec<Event>,
     pub(crate) hypotheses: Vec<Hypothesis<M>>,
     live: Vec<usize>,
+    /// How many data had been seen at each look.
+    looks: Vec<usize>,
+    /// [`MAX_LOOKS`] for each hypothesis: its gain at each look. Empty under a lossless rule.
+    gains: Vec<f64>,
 }
 
 impl<M> Lane<M> {
@@ -94,21 +62,25 @@ impl<M> Lane<M> {
         Self {
             sample: Vec::new(),
             candidates: Candidates::new(0),
-            outcomes: Vec::new(),
+            events: Vec::new(),
             hypotheses: Vec::new(),
             live: Vec::new(),
+            looks: Vec::new(),
+            gains: Vec::new(),
         }
     }
 
     pub(crate) fn prepare(&mut self, sample_size: usize, models: usize, round: usize) {
-        self.outcomes.clear();
+        self.events.clear();
         self.hypotheses.clear();
         self.live.clear();
         // A round of absurd length grows its lists when it gets that far.
-        let iterations = round.min(1024);
-        self.outcomes.reserve(iterations);
-        self.hypotheses.reserve(iterations * models);
-        self.live.reserve(iterations * models);
+        let most = round.min(1024) * models.max(1);
+        self.events.reserve(most);
+        self.hypotheses.reserve(most);
+        self.live.reserve(most);
+        self.looks.clear();
+        self.looks.reserve(MAX_LOOKS);
         self.sample.resize(sample_size, 0);
         self.candidates.set_limit(models);
     }
@@ -125,43 +97,52 @@ impl<M> Lane<M> {
         C: Constraints<E>,
         B: Preemption,
     {
-        self.outcomes.clear();
+        self.events.clear();
         self.hypotheses.clear();
         for iteration in iterations {
-            let outcome = self.draw(task, iteration);
-            self.outcomes.push(outcome);
+            self.draw(task, iteration);
         }
         self.score(task);
     }
 
-    fn draw<E, S, P, C, B>(&mut self, task: &Task<'_, E, S, P, C, B>, iteration: u64) -> Outcome
+    fn draw<E, S, P, C, B>(&mut self, task: &Task<'_, E, S, P, C, B>, iteration: u64)
     where
         E: Estimator<Model = M>,
         P: Sampler<E>,
         C: Constraints<E>,
     {
         let estimator = task.estimator;
+        let mut ends_with = |kind| self.events.push(Event { kind, last: true });
         let mut draws = Draws::new(task.seed, iteration);
         let found = task
             .sampler
             .sample(estimator, iteration, &mut draws, &mut self.sample);
         if !found {
-            return Outcome::Degenerate;
+            return ends_with(Kind::Degenerate);
         }
         if let Some(rule) = task.constraints.refusing_sample(estimator, &self.sample) {
-            return Outcome::SampleRefused(rule);
+            return ends_with(Kind::SampleRefused(rule));
         }
         self.candidates.clear();
         estimator.fit(&self.sample, &mut self.candidates);
         if self.candidates.is_empty() {
-            return Outcome::Degenerate;
+            return ends_with(Kind::Degenerate);
         }
-        let models = self.candidates.len();
         for model in self.candidates.drain() {
             let refused = task.constraints.refusing_model(estimator, &model);
-            self.hypotheses.push(Hypothesis::new(model, refused));
+            let kind = refused.map_or(Kind::Hypothesis, Kind::ModelRefused);
+            self.events.push(Event { kind, last: false });
+            if refused.is_none() {
+                self.hypotheses.push(Hypothesis {
+                    model,
+                    gain: 0.0,
+                    given_up: false,
+                });
+            }
         }
-        Outcome::Fitted(models)
+        if let Some(event) = self.events.last_mut() {
+            event.last = true;
+        }
     }
 
     /// Scores all hypotheses on one block of data before the next block is touched, so that
@@ -173,13 +154,20 @@ impl<M> Lane<M> {
         B: Preemption,
     {
         let Self {
-            hypotheses, live, ..
+            hypotheses,
+            live,
+            looks,
+            gains,
+            ..
         } = self;
         let data = task.estimator.len();
         live.clear();
-        live.extend((0..hypotheses.len()).filter(|&h| hypotheses[h].verdict == Verdict::Scored));
+        live.extend(0..hypotheses.len());
+        looks.clear();
+        if !B::LOSSLESS {
+            gains.resize(gains.len().max(hypotheses.capacity() * MAX_LOOKS), 0.0);
+        }
         let mut next_look = task.preemption.next_look(0, data);
-        let mut looks = 0;
         for block in blocks(data) {
             if live.is_empty() {
                 break;
@@ -192,14 +180,13 @@ impl<M> Lane<M> {
                         .block_gain(task.estimator, &hypothesis.model, block.clone());
             }
             let due = next_look <= seen && seen < data;
-            if due && (B::LOSSLESS || looks < MAX_LOOKS) {
+            if due && (B::LOSSLESS || looks.len() < MAX_LOOKS) {
                 let most_left = task.scorer.most_gain(task.estimator, seen..data);
                 live.retain(|&h| {
                     let hypothesis = &mut hypotheses[h];
                     let gain = hypothesis.gain;
                     if !B::LOSSLESS {
-                        hypothesis.looks[looks] = (seen, gain);
-                        hypothesis.looked = looks + 1;
+                        gains[h * MAX_LOOKS + looks.len()] = gain;
                     }
                     let look = Look {
                         seen,
@@ -207,15 +194,46 @@ impl<M> Lane<M> {
                         gain,
                         most_left,
                     };
-                    let hopeless = task.preemption.gives_up(&look, task.bound);
-                    if hopeless {
-                        hypothesis.verdict = Verdict::GivenUp;
-                    }
-                    !hopeless
+                    hypothesis.given_up = task.preemption.gives_up(&look, task.bound);
+                    !hypothesis.given_up
                 });
-                looks += 1;
+                if !B::LOSSLESS {
+                    looks.push(seen);
+                }
                 next_look = task.preemption.next_look(seen, data);
             }
         }
+    }
+
+    /// Whether a search of one iteration after the other would have scored a hypothesis in full, and
+    /// found it above `bound`, its bound at that time.
+    pub(crate) fn exceeds<E, S, P, C, B>(
+        &self,
+        hypothesis: usize,
+        bound: f64,
+        task: &Task<'_, E, S, P, C, B>,
+    ) -> bool
+    where
+        E: Estimator<Model = M>,
+        S: Scorer<E>,
+        B: Preemption,
+    {
+        let Hypothesis { gain, given_up, .. } = self.hypotheses[hypothesis];
+        if given_up || !(gain > bound) {
+            return false;
+        }
+        let data = task.estimator.len();
+        // Under a lossless rule there are no looks to go through again.
+        let gains = self.gains.iter().skip(hypothesis * MAX_LOOKS);
+        !self.looks.iter().zip(gains).any(|(&seen, &gain)| {
+            let most_left = task.scorer.most_gain(task.estimator, seen..data);
+            let look = Look {
+                seen,
+                data,
+                gain,
+                most_left,
+            };
+            task.preemption.gives_up(&look, bound)
+        })
     }
 }

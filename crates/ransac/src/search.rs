@@ -1,4 +1,4 @@
-use crate::lane::{Lane, Outcome, Task, Verdict};
+use crate::lane::{Event, Hypothesis, Kind, Lane, Task};
 use crate::workspace::Buffers;
 use crate::{
     Confidence, Constraints, Counts, Estimator, LocalOptimization, Preemption, Progress, Ransac,
@@ -178,8 +178,8 @@ where
         };
         work(self.lanes, &task, shares);
 
-        let mut lanes = std::mem::take(self.lanes);
-        let stopped = lanes.iter_mut().find_map(|lane| self.merge(&task, lane));
+        let lanes = std::mem::take(self.lanes);
+        let stopped = lanes.iter().find_map(|lane| self.merge(&task, lane));
         *self.lanes = lanes;
         stopped
     }
@@ -188,46 +188,51 @@ where
     fn merge(
         &mut self,
         task: &Task<'_, E, S, P, C, B>,
-        lane: &mut Lane<E::Model>,
+        lane: &Lane<E::Model>,
     ) -> Option<StopReason> {
-        let Lane {
-            outcomes,
-            hypotheses,
-            ..
-        } = lane;
-        let mut hypotheses = hypotheses.drain(..);
-        for &outcome in outcomes.iter() {
-            match outcome {
-                Outcome::Degenerate => self.counts.degenerate += 1,
-                Outcome::SampleRefused(rule) => self.counts.rejection(rule).samples += 1,
-                Outcome::Fitted(models) => {
-                    let before = self.progress.hypotheses;
-                    for hypothesis in hypotheses.by_ref().take(models) {
-                        if let Verdict::Refused(rule) = hypothesis.verdict {
-                            self.counts.rejection(rule).models += 1;
-                            continue;
-                        }
-                        self.progress.hypotheses += 1;
-                        let useful = hypothesis.exceeds(self.bound(), task);
-                        let (model, score) = (hypothesis.model, hypothesis.gain);
-                        if useful && score > self.best_score() {
-                            self.promote(Scored { model, score });
-                            continue;
-                        }
-                        self.counts.pruned += 1;
-                        if useful {
-                            self.keep(Scored { model, score });
-                        }
-                    }
-                    self.progress.accepted += u64::from(self.progress.hypotheses > before);
+        let mut next = 0;
+        let mut accepted = false;
+        for &Event { kind, last } in &lane.events {
+            match kind {
+                Kind::Degenerate => self.counts.degenerate += 1,
+                Kind::SampleRefused(rule) => self.counts.rejection(rule).samples += 1,
+                Kind::ModelRefused(rule) => self.counts.rejection(rule).models += 1,
+                Kind::Hypothesis => {
+                    self.judge(task, lane, next);
+                    next += 1;
+                    accepted = true;
                 }
             }
-            self.progress.draws += 1;
-            if let Some(reason) = self.parts.stopping.reason(&self.progress) {
-                return Some(reason);
+            if last {
+                self.progress.accepted += u64::from(std::mem::take(&mut accepted));
+                self.progress.draws += 1;
+                if let Some(reason) = self.parts.stopping.reason(&self.progress) {
+                    return Some(reason);
+                }
             }
         }
         None
+    }
+
+    /// Makes a hypothesis the best model, or a runner-up, or nothing.
+    fn judge(&mut self, task: &Task<'_, E, S, P, C, B>, lane: &Lane<E::Model>, hypothesis: usize) {
+        self.progress.hypotheses += 1;
+        let useful = lane.exceeds(hypothesis, self.bound(), task);
+        if !useful {
+            self.counts.pruned += 1;
+            return;
+        }
+        let Hypothesis { model, gain, .. } = &lane.hypotheses[hypothesis];
+        let scored = Scored {
+            model: model.clone(),
+            score: *gain,
+        };
+        if scored.score > self.best_score() {
+            self.promote(scored);
+        } else {
+            self.counts.pruned += 1;
+            self.keep(scored);
+        }
     }
 
     /// Makes a model the best one, after local optimisation.

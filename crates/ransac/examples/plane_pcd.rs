@@ -206,10 +206,15 @@ fn segment(path: &Path, threshold: f64) -> Result<Extraction<Plane>, Box<dyn Err
     Ok(found)
 }
 
-/// Writes the made corner both ways, and finds its three planes in each file.
+/// Writes the made corner in each format, and finds its three planes in each file.
 fn demo() -> Result<(), Box<dyn Error>> {
     let points = corner(&mut ChaCha8Rng::seed_from_u64(1));
-    for (name, kind) in [("ascii", DataKind::Ascii), ("binary", DataKind::Binary)] {
+    let formats = [
+        ("ascii", DataKind::Ascii),
+        ("binary", DataKind::Binary),
+        ("compressed", DataKind::BinaryCompressed),
+    ];
+    for (name, kind) in formats {
         let file = format!("pomona-ransac-{name}-{}.pcd", std::process::id());
         let path = std::env::temp_dir().join(file);
         let found = write(&path, &points, kind).and_then(|()| segment(&path, 0.02));
@@ -238,7 +243,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut arguments = std::env::args().skip(1);
     match arguments.next() {
         Some(file) if file != "--demo" => {
-            let threshold = arguments.next().map_or(Ok(0.02), |t| t.parse())?;
+            let threshold = arguments.next().map_or(Ok(0.02), |given| {
+                let number = given.parse();
+                number.map_err(|e| format!("threshold `{given}`: {e}"))
+            })?;
             segment(Path::new(&file), threshold)?;
             Ok(())
         }

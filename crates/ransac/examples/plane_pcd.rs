@@ -7,8 +7,8 @@
 
 use pcd_rs::{DataKind, DynReader, DynRecord, Field, Schema, ValueKind, ViewPoint, WriterInit};
 use pomona_ransac::{
-    Candidates, Confidence, Estimator, LeastSquares, Msac, Ransac, RansacError, Shuffle,
-    Statistical, Workspace,
+    Candidates, Confidence, Ended, Estimator, Extraction, LeastSquares, Msac, Ransac, RansacError,
+    Sequential, Shuffle, Statistical,
 };
 use rand::RngExt;
 use rand_chacha::{ChaCha8Rng, rand_core::SeedableRng};
@@ -94,46 +94,29 @@ impl Estimator for Points {
     }
 }
 
-struct Found {
-    plane: Plane,
-    inliers: usize,
-    rms: f64,
-}
-
 /// Up to `most` planes of at least `least` points, each taken away before the next is looked for.
 fn planes(
-    mut points: Points,
+    points: &[Vector],
     threshold: f64,
     most: usize,
     least: usize,
     rng: &mut ChaCha8Rng,
-) -> Result<Vec<Found>, RansacError> {
+) -> Result<Extraction<Plane>, RansacError> {
     let search = Ransac::new(Msac::within(threshold))
         .local_optimization(LeastSquares::default())
         .preemption(Statistical::with_error(0.01))
-        .stopping(Confidence::new(0.99, 20_000))
-        .min_inliers(least);
-    let mut workspace = Workspace::new();
-    let mut found = Vec::new();
-    while found.len() < most {
-        let report = match search.run_with(&mut workspace, &points, rng) {
-            Ok(report) => report,
-            // Nothing large enough is left: that is how it should end.
-            Err(RansacError::NoConsensus { .. } | RansacError::TooFewData { .. }) => break,
-            Err(other) => return Err(other),
-        };
-        found.push(Found {
-            plane: report.model.clone(),
-            inliers: report.inliers.len(),
-            rms: report.residuals.rms,
+        .stopping(Confidence::new(0.99, 20_000));
+    let found = Sequential::default()
+        .max_structures(most)
+        .min_inliers(least)
+        .run(points.len(), |left| {
+            search.run(&Points(left.iter().map(|&i| points[i]).collect()), rng)
         });
-        let mut taken = report.inliers.iter().copied().peekable();
-        let mut number = 0..;
-        points
-            .0
-            .retain(|_| taken.next_if_eq(&number.next().unwrap_or(0)).is_none());
+    match found.ended {
+        Ended::NoModel(error) if found.structures.is_empty() => Err(error),
+        // Nothing large enough was left: that is how it should end.
+        _ => Ok(found),
     }
-    Ok(found)
 }
 
 /// The points of a file; those without a finite place are left out.
@@ -199,36 +182,39 @@ fn write(path: &Path, points: &[Vector], data_kind: DataKind) -> Result<(), Box<
 }
 
 /// Reads the file, and prints its planes.
-fn segment(path: &Path, threshold: f64) -> Result<Vec<Found>, Box<dyn Error>> {
+fn segment(path: &Path, threshold: f64) -> Result<Extraction<Plane>, Box<dyn Error>> {
     let mut rng = ChaCha8Rng::seed_from_u64(2);
     let points = read(path)?;
     // In random order, because `Statistical` judges by the first few hundred.
     let order = Shuffle::new(points.len(), &mut rng);
-    let points = Points(order.apply(&points));
-    let all = points.len();
-    let found = planes(points, threshold, 6, all.div_ceil(20).max(100), &mut rng)?;
+    let points = order.apply(&points);
+    let least = points.len().div_ceil(20).max(100);
+    let found = planes(&points, threshold, 6, least, &mut rng)?;
 
-    println!("{}: {all} points", path.display());
+    println!("{}: {} points", path.display(), points.len());
     println!("plane   normal                        offset   points      rms");
-    for (number, found) in found.iter().enumerate() {
-        let Plane { normal, offset } = found.plane;
+    for (number, report) in (1..).zip(&found.structures) {
+        let Plane { normal, offset } = report.model;
         let [x, y, z] = normal;
         println!(
-            "{:5}   ({x:7.4}, {y:7.4}, {z:7.4}) {offset:9.4} {:8} {:8.5}",
-            number + 1,
-            found.inliers,
-            found.rms
+            "{number:5}   ({x:7.4}, {y:7.4}, {z:7.4}) {offset:9.4} {:8} {:8.5}",
+            report.inliers.len(),
+            report.residuals.rms
         );
     }
-    let taken: usize = found.iter().map(|found| found.inliers).sum();
-    println!("on no plane: {} points\n", all - taken);
+    println!("on no plane: {} points\n", found.rest.len());
     Ok(found)
 }
 
-/// Writes the made corner both ways, and finds its three planes in each file.
+/// Writes the made corner in each format, and finds its three planes in each file.
 fn demo() -> Result<(), Box<dyn Error>> {
     let points = corner(&mut ChaCha8Rng::seed_from_u64(1));
-    for (name, kind) in [("ascii", DataKind::Ascii), ("binary", DataKind::Binary)] {
+    let formats = [
+        ("ascii", DataKind::Ascii),
+        ("binary", DataKind::Binary),
+        ("compressed", DataKind::BinaryCompressed),
+    ];
+    for (name, kind) in formats {
         let file = format!("pomona-ransac-{name}-{}.pcd", std::process::id());
         let path = std::env::temp_dir().join(file);
         let found = write(&path, &points, kind).and_then(|()| segment(&path, 0.02));
@@ -241,12 +227,13 @@ fn demo() -> Result<(), Box<dyn Error>> {
             ([0.0, 1.0, 0.0], 3.0),
             ([1.0 / lean, 0.0, -0.1 / lean], 3.0 / lean),
         ];
-        assert_eq!(found.len(), truth.len());
-        for (found, (normal, offset)) in found.iter().zip(truth) {
-            let side = dot(found.plane.normal, normal).signum();
-            let turn = cross(found.plane.normal, normal);
+        assert_eq!(found.structures.len(), truth.len());
+        for (report, (normal, offset)) in found.structures.iter().zip(truth) {
+            let plane = &report.model;
+            let side = dot(plane.normal, normal).signum();
+            let turn = cross(plane.normal, normal);
             assert!(dot(turn, turn).sqrt().asin().to_degrees() < 0.1);
-            assert!((side * found.plane.offset - offset).abs() < 0.005);
+            assert!((side * plane.offset - offset).abs() < 0.005);
         }
     }
     Ok(())
@@ -256,7 +243,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut arguments = std::env::args().skip(1);
     match arguments.next() {
         Some(file) if file != "--demo" => {
-            let threshold = arguments.next().map_or(Ok(0.02), |t| t.parse())?;
+            let threshold = arguments.next().map_or(Ok(0.02), |given| {
+                let number = given.parse();
+                number.map_err(|e| format!("threshold `{given}`: {e}"))
+            })?;
             segment(Path::new(&file), threshold)?;
             Ok(())
         }

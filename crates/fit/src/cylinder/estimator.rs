@@ -1,8 +1,8 @@
-use crate::cylinder::cylinder_held;
+use crate::cylinder::{cylinder_held, pipe};
 use crate::held::HeldRefit;
 use crate::points::weighted;
 use crate::prior::Knowledge;
-use crate::{Coordinate, Points, PriorError, RadiusPrior, cylinder_through};
+use crate::{Coordinate, Points, PriorError, RadiusPrior, cylinder_through, simd};
 use pomona_geometry::Cylinder;
 use pomona_ransac::{Candidates, Estimator};
 use std::ops::Range;
@@ -89,6 +89,29 @@ impl<T: Coordinate> Estimator for CylinderEstimator<'_, T> {
         for (r, i) in out.iter_mut().zip(block) {
             *r = cylinder.signed_distance(&self.points.get(i)).abs();
         }
+    }
+
+    fn count_within(&self, cylinder: &Cylinder, block: Range<usize>, threshold: f64) -> usize {
+        simd::count(self.points.block(block), pipe::<T>(cylinder, threshold))
+    }
+
+    fn truncated_gain(&self, cylinder: &Cylinder, block: Range<usize>, threshold: f64) -> f64 {
+        if threshold == 0.0 {
+            return self.count_within(cylinder, block, threshold) as f64;
+        }
+        simd::gain(self.points.block(block), pipe::<T>(cylinder, threshold))
+    }
+
+    fn select_within(
+        &self,
+        cylinder: &Cylinder,
+        block: Range<usize>,
+        threshold: f64,
+        out: &mut Vec<usize>,
+    ) {
+        let first = block.start;
+        let kernel = pipe::<T>(cylinder, threshold);
+        simd::select(self.points.block(block), first, kernel, out);
     }
 }
 

@@ -1,9 +1,8 @@
 use crate::held::HeldRefit;
 use crate::levenberg::Objective;
-use crate::line::LineChart;
+use crate::line::{LineChart, Tube};
 use crate::points::{centroid_and_extent, weighted};
 use crate::{Coordinate, Points, line_least_squares, simd};
-use nalgebra::Vector3;
 use pomona_geometry::Line;
 use pomona_ransac::{Candidates, Estimator};
 use std::ops::Range;
@@ -18,46 +17,6 @@ impl<'a, T: Coordinate> LineEstimator<'a, T> {
     /// An estimator over a view of points.
     pub fn new(points: Points<'a, T>) -> Self {
         Self { points }
-    }
-}
-
-/// A line made ready for one threshold: two unit vectors across it, and the squared threshold.
-///
-/// The squared distance is the sum of two squares, which unlike |w|² − (w·e)²
-/// loses no digits far along the line.
-struct Tube<T> {
-    origin: [T; 3],
-    u: [T; 3],
-    v: [T; 3],
-    squared_threshold: T,
-}
-
-impl<T: Coordinate> Tube<T> {
-    /// A threshold that is negative or NaN holds nothing.
-    fn new(line: &Line, threshold: f64) -> Self {
-        let e = line.direction.into_inner();
-        let u = e.cross(&Vector3::ith(e.iamin(), 1.0)).normalize();
-        let v = e.cross(&u);
-        let coordinates = |w: Vector3<f64>| [w.x, w.y, w.z].map(T::from_f64);
-        let square = if threshold >= 0.0 {
-            threshold * threshold
-        } else {
-            -1.0
-        };
-        Self {
-            origin: coordinates(line.point.coords),
-            u: coordinates(u),
-            v: coordinates(v),
-            squared_threshold: T::from_f64(square),
-        }
-    }
-
-    #[inline(always)]
-    fn holds(&self, x: T, y: T, z: T) -> bool {
-        let (wx, wy, wz) = (x - self.origin[0], y - self.origin[1], z - self.origin[2]);
-        let a = wx * self.u[0] + wy * self.u[1] + wz * self.u[2];
-        let b = wx * self.v[0] + wy * self.v[1] + wz * self.v[2];
-        a * a + b * b <= self.squared_threshold
     }
 }
 
@@ -91,8 +50,14 @@ impl<T: Coordinate> Estimator for LineEstimator<'_, T> {
     }
 
     fn count_within(&self, line: &Line, block: Range<usize>, threshold: f64) -> usize {
-        let tube = Tube::<T>::new(line, threshold);
-        simd::count(self.points.block(block), |x, y, z| tube.holds(x, y, z))
+        simd::count(self.points.block(block), Tube::<T>::new(line, threshold))
+    }
+
+    fn truncated_gain(&self, line: &Line, block: Range<usize>, threshold: f64) -> f64 {
+        if threshold == 0.0 {
+            return self.count_within(line, block, threshold) as f64;
+        }
+        simd::gain(self.points.block(block), Tube::<T>::new(line, threshold))
     }
 
     fn select_within(
@@ -102,14 +67,9 @@ impl<T: Coordinate> Estimator for LineEstimator<'_, T> {
         threshold: f64,
         out: &mut Vec<usize>,
     ) {
-        let tube = Tube::<T>::new(line, threshold);
-        let (x, y, z) = self.points.block(block.clone());
-        let points = x.iter().zip(y).zip(z).zip(block);
-        out.extend(
-            points
-                .filter(|(((x, y), z), _)| tube.holds(**x, **y, **z))
-                .map(|(_, i)| i),
-        );
+        let first = block.start;
+        let kernel = Tube::<T>::new(line, threshold);
+        simd::select(self.points.block(block), first, kernel, out);
     }
 }
 

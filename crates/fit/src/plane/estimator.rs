@@ -1,8 +1,8 @@
 use crate::held::HeldRefit;
 use crate::levenberg::Objective;
-use crate::plane::PlaneChart;
+use crate::plane::{PlaneChart, Slab};
 use crate::points::{centroid_and_extent, weighted};
-use crate::{Coordinate, Points, plane_least_squares};
+use crate::{Coordinate, Points, plane_least_squares, simd};
 use pomona_geometry::Plane;
 use pomona_ransac::{Candidates, Estimator};
 use std::ops::Range;
@@ -48,6 +48,29 @@ impl<T: Coordinate> Estimator for PlaneEstimator<'_, T> {
         for (r, i) in out.iter_mut().zip(block) {
             *r = plane.signed_distance(&self.points.get(i)).abs();
         }
+    }
+
+    fn count_within(&self, plane: &Plane, block: Range<usize>, threshold: f64) -> usize {
+        simd::count(self.points.block(block), Slab::<T>::new(plane, threshold))
+    }
+
+    fn truncated_gain(&self, plane: &Plane, block: Range<usize>, threshold: f64) -> f64 {
+        if threshold == 0.0 {
+            return self.count_within(plane, block, threshold) as f64;
+        }
+        simd::gain(self.points.block(block), Slab::<T>::new(plane, threshold))
+    }
+
+    fn select_within(
+        &self,
+        plane: &Plane,
+        block: Range<usize>,
+        threshold: f64,
+        out: &mut Vec<usize>,
+    ) {
+        let first = block.start;
+        let kernel = Slab::<T>::new(plane, threshold);
+        simd::select(self.points.block(block), first, kernel, out);
     }
 }
 

@@ -101,6 +101,10 @@ impl Stopping for Confidence {
         }
     }
 
+    fn confidence(&self, progress: &Progress) -> Option<f64> {
+        Some(1.0 - miss_probability(progress, self.counted(progress)))
+    }
+
     fn draws_left(&self, progress: &Progress) -> u64 {
         // A division by −0 (no inliers yet) gives infinity, which saturates.
         let needed = (self.failure.ln() / log_unclean(progress)).ceil() as u64;
@@ -114,6 +118,7 @@ impl Stopping for Confidence {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::FixedCount;
 
     fn progress(draws: u64, best_inliers: usize, data: usize, sample_size: usize) -> Progress {
         Progress {
@@ -166,6 +171,16 @@ mod tests {
         assert_eq!(rule.reason(&at(100, 9)), None);
         assert_eq!(rule.reason(&at(100, 10)), Some(StopReason::Confident));
         assert_eq!(rule.reason(&at(1000, 9)), Some(StopReason::DrawsExhausted));
+        // What is told is what the rule went by, and of two rules the lower.
+        let told = |p: &Progress| rule.confidence(p).unwrap_or(f64::NAN);
+        assert_eq!(told(&at(100, 0)), 0.0);
+        assert!((told(&at(100, 9)) - (1.0 - 0.6_f64.powi(9))).abs() < 1e-15);
+        let every = Confidence::new(0.99, 1000);
+        assert!(every.confidence(&at(100, 0)) > Some(0.999_999));
+        assert_eq!(every.or(rule).confidence(&at(100, 0)), Some(0.0));
+        let counted = FixedCount::new(5).or(rule);
+        assert_eq!(counted.confidence(&at(100, 0)), Some(0.0));
+        assert_eq!(FixedCount::new(5).confidence(&at(100, 0)), None);
     }
 
     #[test]

@@ -97,8 +97,12 @@ pub struct Report<M> {
     /// which makes it `(σ⁴/s²)(JᵀWJ)⁻¹` over the inliers, s being the spread that these show.
     pub covariance: Option<Covariance>,
     /// Probability that a sample of inliers alone was among those drawn, had the samples been uniform
-    /// and the final model's inliers all there are to find: 1 less
-    /// [`Confidence::miss_probability`](crate::Confidence::miss_probability).
+    /// and the final model's inliers all there are to find.
+    ///
+    /// As the stopping rule reckons it ([`Stopping::confidence`](crate::Stopping::confidence)): without the samples
+    /// that were refused for a [`Confidence`](crate::Confidence) that counts the
+    /// [accepted ones only](crate::Confidence::accepted_only). For a rule that does not reckon with it, every
+    /// sample counts: 1 less [`Confidence::miss_probability`](crate::Confidence::miss_probability).
     pub confidence: f64,
     /// Why the search ended.
     pub stopped: StopReason,

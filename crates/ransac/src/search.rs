@@ -309,6 +309,9 @@ where
         self.counts.draws = self.progress.draws;
         self.counts.accepted = self.progress.accepted;
         self.counts.hypotheses = self.progress.hypotheses;
+        let stated = self.parts.stopping.confidence(&self.progress);
+        let confidence =
+            stated.unwrap_or_else(|| 1.0 - Confidence::miss_probability(&self.progress));
         let (sigma, covariance) = uncertainty(self.estimator, &self.parts.scorer, &model, &inliers);
         Ok(Report {
             sigma,
@@ -319,7 +322,7 @@ where
                 &inliers,
                 &mut self.buffers.numbers,
             ),
-            confidence: 1.0 - Confidence::miss_probability(&self.progress),
+            confidence,
             model,
             inliers,
             score,

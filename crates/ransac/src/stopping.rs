@@ -48,6 +48,14 @@ pub trait Stopping: Sync {
         u64::MAX
     }
 
+    /// Probability that a sample of inliers alone was among those that this rule counts; none for a
+    /// rule that does not reckon with it.
+    ///
+    /// [`Report::confidence`](crate::Report::confidence) is this, for the final model.
+    fn confidence(&self, _progress: &Progress) -> Option<f64> {
+        None
+    }
+
     /// Ends when this rule or the `other` does, for the reason of the one that does; this
     /// rule's where both do.
     fn or<R: Stopping>(self, other: R) -> Either<Self, R>
@@ -77,6 +85,15 @@ impl<A: Stopping, B: Stopping> Stopping for Either<A, B> {
     fn draws_left(&self, progress: &Progress) -> u64 {
         let first = self.first.draws_left(progress);
         first.min(self.second.draws_left(progress))
+    }
+
+    /// The lower of the two where both have one.
+    fn confidence(&self, progress: &Progress) -> Option<f64> {
+        let of_rules = [
+            self.first.confidence(progress),
+            self.second.confidence(progress),
+        ];
+        of_rules.into_iter().flatten().reduce(f64::min)
     }
 }
 

@@ -3,7 +3,7 @@
 
 use pomona_ransac::{
     Candidates, Confidence, Constraint, Estimator, Exhaustive, FixedCount, InlierCount,
-    LeastSquares, Msac, Ransac, RansacError, RefitOnce, Report, StopReason,
+    LeastSquares, Msac, Ransac, RansacError, RefitOnce, Report, StopReason, Stopping,
 };
 use proptest::prelude::*;
 use rand_chacha::{ChaCha8Rng, rand_core::SeedableRng};
@@ -39,6 +39,7 @@ impl Estimator for Numbers {
     }
 }
 
+#[derive(Clone, Copy)]
 struct AtMost(f64);
 
 impl Constraint<Numbers> for AtMost {
@@ -262,6 +263,33 @@ fn confidence_ends_a_search_early_and_not_without_a_model() {
         .run(&Numbers(vec![f64::NAN; 5]), &mut rng(4))
         .unwrap_err();
     assert_eq!(empty, RansacError::AllDegenerate { draws: 10_000 });
+}
+
+#[test]
+fn the_confidence_told_is_that_of_the_rule() {
+    // Two thirds of the models are refused.
+    let constrained = Ransac::new(InlierCount::within(0.5)).constraint(AtMost(10.1));
+    let counts = Confidence::new(0.99, 100_000).min_draws(3);
+    let all = constrained.stopping(counts).run(&mostly_ten(), &mut rng(4));
+    let accepted = constrained
+        .stopping(counts.accepted_only())
+        .run(&mostly_ten(), &mut rng(4));
+    let miss = |report: &Report<f64>, samples: u64| {
+        let (inliers, data) = (report.inliers.len() as f64, 3000.0);
+        (1.0 - inliers / data * (inliers - 1.0) / (data - 1.0)).powf(samples as f64)
+    };
+    let (all, accepted) = (all.unwrap(), accepted.unwrap());
+    let counts = accepted.counts;
+    assert!(counts.accepted < counts.draws && all.counts.draws < counts.draws);
+    assert!((accepted.confidence - (1.0 - miss(&accepted, counts.accepted))).abs() < 1e-9);
+    assert!((all.confidence - (1.0 - miss(&all, all.counts.draws))).abs() < 1e-9);
+    assert!(accepted.confidence >= 0.99 && accepted.stopped == StopReason::Confident);
+    // The same through a rule that has nothing to say of it.
+    let either = constrained
+        .stopping(FixedCount::new(100_000).or(Confidence::new(0.99, 100_000).accepted_only()))
+        .run(&mostly_ten(), &mut rng(4))
+        .unwrap();
+    assert!((either.confidence - (1.0 - miss(&either, either.counts.accepted))).abs() < 1e-9);
 }
 
 proptest! {

@@ -1,13 +1,18 @@
+use crate::chart::linearize;
 use crate::held::HeldRefit;
 use crate::levenberg::Objective;
 use crate::line::{LineChart, Tube};
 use crate::points::{centroid_and_extent, weighted};
 use crate::{Coordinate, Points, line_least_squares, simd};
 use pomona_geometry::Line;
-use pomona_ransac::{Candidates, Estimator};
+use pomona_ransac::{Candidates, Estimator, Linearization};
 use std::ops::Range;
 
 /// Lines through points, for `pomona-ransac`. A residual is the distance from the line.
+///
+/// The covariance in a report is by (τ₁, τ₂, o₁, o₂): with (u, v) = [`across`](pomona_geometry::across) of the
+/// direction e, e' ∝ e + τ₁ u + τ₂ v and a' = a + o₁ u + o₂ v, a being the line's point. A point has
+/// two residuals, along u and v.
 #[derive(Clone, Copy, Debug)]
 pub struct LineEstimator<'a, T> {
     points: Points<'a, T>,
@@ -23,6 +28,7 @@ impl<'a, T: Coordinate> LineEstimator<'a, T> {
 impl<T: Coordinate> Estimator for LineEstimator<'_, T> {
     type Model = Line;
     const SAMPLE_SIZE: usize = 2;
+    const PARAMETERS: usize = 4;
 
     fn len(&self) -> usize {
         self.points.len()
@@ -41,6 +47,10 @@ impl<T: Coordinate> Estimator for LineEstimator<'_, T> {
 
     fn refit_weighted(&self, inliers: &[usize], weights: &[f64], current: &Line) -> Option<Line> {
         self.iterated(inliers, Some(weights), current, None)
+    }
+
+    fn linearize(&self, line: &Line, datum: usize, rows: &mut Linearization) {
+        linearize::<LineChart, 4, 2>(line, &self.points.get(datum), rows);
     }
 
     fn residuals(&self, line: &Line, block: Range<usize>, out: &mut [f64]) {

@@ -1,13 +1,17 @@
+use crate::chart::linearize;
 use crate::held::HeldRefit;
 use crate::levenberg::Objective;
 use crate::plane::{PlaneChart, Slab};
 use crate::points::{centroid_and_extent, weighted};
 use crate::{Coordinate, Points, plane_least_squares, simd};
 use pomona_geometry::Plane;
-use pomona_ransac::{Candidates, Estimator};
+use pomona_ransac::{Candidates, Estimator, Linearization};
 use std::ops::Range;
 
 /// Planes through points, for `pomona-ransac`. A residual is the distance from the plane.
+///
+/// The covariance in a report is by (τ₁, τ₂, s): with (u, v) = [`across`](pomona_geometry::across) of the normal n and f
+/// the plane's point nearest to the origin, n' ∝ n + τ₁ u + τ₂ v through f' = f + s n.
 #[derive(Clone, Copy, Debug)]
 pub struct PlaneEstimator<'a, T> {
     points: Points<'a, T>,
@@ -23,6 +27,7 @@ impl<'a, T: Coordinate> PlaneEstimator<'a, T> {
 impl<T: Coordinate> Estimator for PlaneEstimator<'_, T> {
     type Model = Plane;
     const SAMPLE_SIZE: usize = 3;
+    const PARAMETERS: usize = 3;
 
     fn len(&self) -> usize {
         self.points.len()
@@ -42,6 +47,10 @@ impl<T: Coordinate> Estimator for PlaneEstimator<'_, T> {
 
     fn refit_weighted(&self, inliers: &[usize], weights: &[f64], current: &Plane) -> Option<Plane> {
         self.iterated(inliers, Some(weights), current, None)
+    }
+
+    fn linearize(&self, plane: &Plane, datum: usize, rows: &mut Linearization) {
+        linearize::<PlaneChart, 3, 1>(plane, &self.points.get(datum), rows);
     }
 
     fn residuals(&self, plane: &Plane, block: Range<usize>, out: &mut [f64]) {

@@ -1,10 +1,11 @@
+use crate::chart::linearize;
 use crate::held::HeldRefit;
 use crate::points::weighted;
 use crate::prior::Knowledge;
-use crate::sphere::{FourPoints, SphereSample, shell, sphere_held};
+use crate::sphere::{FourPoints, SphereChart, SphereSample, shell, sphere_held};
 use crate::{Coordinate, Points, PriorError, RadiusPrior, simd, sphere_least_squares};
 use pomona_geometry::Sphere;
-use pomona_ransac::{Candidates, Estimator};
+use pomona_ransac::{Candidates, Estimator, Linearization};
 use std::ops::Range;
 
 /// How a sphere is refitted to its inliers.
@@ -21,6 +22,9 @@ pub enum SphereRefit {
 /// Spheres through points, for `pomona-ransac`. A residual is the distance from the surface.
 ///
 /// `S` is what a minimal sample is: four points unless [`sampling`](Self::sampling) says otherwise.
+///
+/// The covariance in a report is by the shift of the centre along x, y and z and the change of the radius.
+/// A prior is not part of it: it says what the points alone tell.
 #[derive(Clone, Copy, Debug)]
 pub struct SphereEstimator<'a, T, S = FourPoints> {
     points: Points<'a, T>,
@@ -82,6 +86,7 @@ impl<T: Coordinate, S: SphereSample<T>> Estimator for SphereEstimator<'_, T, S> 
     type Model = Sphere;
     const SAMPLE_SIZE: usize = S::SIZE;
     const MAX_MODELS: usize = S::MODELS;
+    const PARAMETERS: usize = 4;
 
     fn len(&self) -> usize {
         self.points.len()
@@ -108,6 +113,10 @@ impl<T: Coordinate, S: SphereSample<T>> Estimator for SphereEstimator<'_, T, S> 
             SphereRefit::Algebraic => self.refit(inliers, current),
             SphereRefit::Geometric => self.geometric(inliers, Some(weights), current, None),
         }
+    }
+
+    fn linearize(&self, sphere: &Sphere, datum: usize, rows: &mut Linearization) {
+        linearize::<SphereChart, 4, 1>(sphere, &self.points.get(datum), rows);
     }
 
     fn residuals(&self, sphere: &Sphere, block: Range<usize>, out: &mut [f64]) {

@@ -1,5 +1,5 @@
 use std::fmt::Debug;
-use std::ops::{Add, Mul, Sub};
+use std::ops::{Add, AddAssign, Mul, Sub};
 
 /// A number that coordinates are stored and scored in: `f32` or `f64`.
 pub trait Coordinate:
@@ -9,6 +9,7 @@ pub trait Coordinate:
     + Send
     + Sync
     + Add<Output = Self>
+    + AddAssign
     + Sub<Output = Self>
     + Mul<Output = Self>
     + sealed::Sealed
@@ -19,6 +20,10 @@ pub trait Coordinate:
 
     /// The same number as `f64`.
     fn to_f64(self) -> f64;
+
+    /// The nearest number to the square root.
+    #[must_use]
+    fn square_root(self) -> Self;
 }
 
 mod sealed {
@@ -34,6 +39,10 @@ impl Coordinate for f32 {
     fn to_f64(self) -> f64 {
         f64::from(self)
     }
+    #[inline(always)]
+    fn square_root(self) -> Self {
+        self.sqrt()
+    }
 }
 
 impl Coordinate for f64 {
@@ -42,5 +51,9 @@ impl Coordinate for f64 {
     }
     fn to_f64(self) -> f64 {
         self
+    }
+    #[inline(always)]
+    fn square_root(self) -> Self {
+        self.sqrt()
     }
 }

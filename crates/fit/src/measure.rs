@@ -94,18 +94,21 @@ impl Directed for Capsule {
 }
 
 impl Straight for Line {
+    #[inline]
     fn nearest(&self, point: &Point3<f64>) -> Point3<f64> {
         self.foot(point)
     }
 }
 
 impl Straight for Cylinder {
+    #[inline]
     fn nearest(&self, point: &Point3<f64>) -> Point3<f64> {
         self.axis.foot(point)
     }
 }
 
 impl Straight for Capsule {
+    #[inline]
     fn nearest(&self, point: &Point3<f64>) -> Point3<f64> {
         self.segment.closest_point(point)
     }

@@ -147,15 +147,20 @@ fn divergence(q: f64, p: f64) -> f64 {
     term(q, p) + term(1.0 - q, 1.0 - p)
 }
 
-/// Whether n kl(q, p) is at least `needed`.
+/// Whether n kl(q, p) is at least e + ln(looks).
 ///
 /// Two bounds settle most cases without a logarithm: (q−p)²/(2 max(q, p)) ≤ kl(q, p) ≤ (q−p)²/(p(1−p)).
-fn reaches(n: f64, q: f64, p: f64, needed: f64) -> bool {
+fn reaches(n: f64, q: f64, p: f64, e: f64, looks: u32) -> bool {
+    // No more than the logarithm of the most looks.
+    const MOST: f64 = 3.5;
     let square = n * (q - p) * (q - p);
-    if square < needed * p * (1.0 - p) {
+    if square < e * p * (1.0 - p) {
         return false;
     }
-    square >= needed * 2.0 * q.max(p) || n * divergence(q, p) >= needed
+    if square >= (e + MOST) * 2.0 * q.max(p) {
+        return true;
+    }
+    n * divergence(q, p) >= e + f64::from(looks).ln()
 }
 
 impl Preemption for Statistical {
@@ -175,8 +180,8 @@ impl Preemption for Statistical {
         if !(0.0 <= q && q < p) {
             return false;
         }
-        let needed = f64::from(Self::looks(look.data)).ln() - self.log_error;
-        reaches(seen, q, p, needed) || reaches(unseen, r, p, needed)
+        let (e, looks) = (-self.log_error, Self::looks(look.data));
+        reaches(seen, q, p, e, looks) || reaches(unseen, r, p, e, looks)
     }
 }
 
@@ -213,17 +218,18 @@ mod tests {
     fn what_settles_a_case_quickly_agrees_with_the_divergence() {
         for (q, p) in (0..=100).flat_map(|q| (1..100).map(move |p| (f64::from(q), f64::from(p)))) {
             let (q, p) = (q / 100.0, p / 100.0);
-            for needed in [0.1, 1.0, 3.0, 10.0] {
-                let exact = 300.0 * divergence(q, p);
+            for (e, looks) in [(0.1, 1), (1.0, 3), (3.0, 8), (10.0, 32)] {
+                let (exact, needed) = (300.0 * divergence(q, p), e + f64::from(looks).ln());
                 if (exact - needed).abs() > 1e-9 {
                     assert_eq!(
-                        reaches(300.0, q, p, needed),
+                        reaches(300.0, q, p, e, looks),
                         exact >= needed,
-                        "{q} {p} {needed}"
+                        "{q} {p} {e}"
                     );
                 }
             }
         }
+        assert!((MAX_LOOKS as f64).ln() < 3.5);
     }
 
     #[test]

@@ -1,11 +1,12 @@
 use crate::capsule::capsule_along;
-use crate::cylinder::cylinder_held;
+use crate::chart::linearize;
+use crate::cylinder::{CylinderChart, cylinder_held};
 use crate::held::HeldRefit;
 use crate::points::weighted;
 use crate::prior::Knowledge;
 use crate::{Coordinate, Points, PriorError, RadiusPrior, cylinder_through};
 use pomona_geometry::{Capsule, Cylinder};
-use pomona_ransac::{Candidates, Estimator};
+use pomona_ransac::{Candidates, Estimator, Linearization};
 use std::ops::Range;
 
 /// How many gaps' lengths a minimal model reaches at most, both ways together.
@@ -20,6 +21,10 @@ const CELLS: usize = 256;
 /// ([`cylinder_weighted`](crate::cylinder_weighted)) and then takes the extent of the inliers
 /// ([`capsule_along`]). Unlike an infinite cylinder a capsule does not count what lies on the axis's
 /// continuation elsewhere in the scene.
+///
+/// The covariance in a report is that of the cylinder (see [`CylinderEstimator`](crate::CylinderEstimator)) about the
+/// segment's start; the ends are the outermost inliers, and no covariance tells how far the rod goes on unseen.
+/// Inliers on the round ends count as if they lay on the cylinder's side, which makes the noise look a little larger.
 #[derive(Clone, Copy, Debug)]
 pub struct CapsuleEstimator<'a, T> {
     points: Points<'a, T>,
@@ -113,6 +118,7 @@ impl<'a, T: Coordinate> CapsuleEstimator<'a, T> {
 impl<T: Coordinate> Estimator for CapsuleEstimator<'_, T> {
     type Model = Capsule;
     const SAMPLE_SIZE: usize = 2;
+    const PARAMETERS: usize = 5;
 
     fn len(&self) -> usize {
         self.points.len()
@@ -147,6 +153,12 @@ impl<T: Coordinate> Estimator for CapsuleEstimator<'_, T> {
         current: &Capsule,
     ) -> Option<Capsule> {
         self.geometric(inliers, Some(weights), current, None)
+    }
+
+    fn linearize(&self, capsule: &Capsule, datum: usize, rows: &mut Linearization) {
+        if let Some(cylinder) = capsule.cylinder() {
+            linearize::<CylinderChart, 5, 1>(&cylinder, &self.points.get(datum), rows);
+        }
     }
 
     fn residuals(&self, capsule: &Capsule, block: Range<usize>, out: &mut [f64]) {

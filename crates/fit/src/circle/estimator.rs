@@ -1,16 +1,21 @@
-use crate::circle::circle_held;
+use crate::chart::linearize;
+use crate::circle::{CircleChart, circle_held};
 use crate::held::HeldRefit;
 use crate::points::weighted;
 use crate::prior::Knowledge;
 use crate::{Coordinate, Points, PriorError, RadiusPrior, circle_through};
 use pomona_geometry::Circle;
-use pomona_ransac::{Candidates, Estimator};
+use pomona_ransac::{Candidates, Estimator, Linearization};
 use std::ops::Range;
 
 /// Circles in space through points, for `pomona-ransac`. A residual is the distance from the
 /// circle's curve.
 ///
 /// A sample is three points; a refit is [`circle_weighted`](crate::circle_weighted), started from the model so far.
+///
+/// The covariance in a report is by (τ₁, τ₂, a, b, s, ρ): with (u, v) = [`across`](pomona_geometry::across) of the
+/// normal n, n' ∝ n + τ₁ u + τ₂ v, c' = c + a u + b v + s n and r' = r + ρ. A point has two residuals, within the
+/// circle's plane and across it. A prior is not part of it: it says what the points alone tell.
 #[derive(Clone, Copy, Debug)]
 pub struct CircleEstimator<'a, T> {
     points: Points<'a, T>,
@@ -51,6 +56,7 @@ impl<'a, T: Coordinate> CircleEstimator<'a, T> {
 impl<T: Coordinate> Estimator for CircleEstimator<'_, T> {
     type Model = Circle;
     const SAMPLE_SIZE: usize = 3;
+    const PARAMETERS: usize = 6;
 
     fn len(&self) -> usize {
         self.points.len()
@@ -74,6 +80,10 @@ impl<T: Coordinate> Estimator for CircleEstimator<'_, T> {
         current: &Circle,
     ) -> Option<Circle> {
         self.geometric(inliers, Some(weights), current, None)
+    }
+
+    fn linearize(&self, circle: &Circle, datum: usize, rows: &mut Linearization) {
+        linearize::<CircleChart, 6, 2>(circle, &self.points.get(datum), rows);
     }
 
     fn residuals(&self, circle: &Circle, block: Range<usize>, out: &mut [f64]) {

@@ -23,6 +23,7 @@ impl DistanceWindow {
         Window::new(min, max).map(|window| Self { point, window })
     }
 
+    #[inline]
     fn distance(&self, model: &impl Straight) -> f64 {
         (model.nearest(&self.point) - self.point).norm()
     }

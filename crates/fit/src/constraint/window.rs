@@ -32,6 +32,7 @@ impl Window {
     }
 
     /// Never for NaN.
+    #[inline]
     pub(crate) fn contains(&self, value: f64) -> bool {
         (self.min..=self.max).contains(&value)
     }

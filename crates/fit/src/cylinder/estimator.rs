@@ -1,16 +1,21 @@
-use crate::cylinder::cylinder_held;
+use crate::chart::linearize;
+use crate::cylinder::{CylinderChart, cylinder_held, pipe};
 use crate::held::HeldRefit;
 use crate::points::weighted;
 use crate::prior::Knowledge;
-use crate::{Coordinate, Points, PriorError, RadiusPrior, cylinder_through};
+use crate::{Coordinate, Points, PriorError, RadiusPrior, cylinder_through, simd};
 use pomona_geometry::Cylinder;
-use pomona_ransac::{Candidates, Estimator};
+use pomona_ransac::{Candidates, Estimator, Linearization};
 use std::ops::Range;
 
 /// Cylinders through points with normals, for `pomona-ransac`. A residual is the distance from the
 /// surface; the normals (of either sign) make models and are not scored.
 ///
 /// A refit is [`cylinder_weighted`](crate::cylinder_weighted), started from the model so far.
+///
+/// The covariance in a report is by (τ₁, τ₂, o₁, o₂, ρ): with (u, v) = [`across`](pomona_geometry::across) of the
+/// direction e, e' ∝ e + τ₁ u + τ₂ v, a' = a + o₁ u + o₂ v, a being the axis's point, and r' = r + ρ.
+/// A prior is not part of it: it says what the points alone tell.
 #[derive(Clone, Copy, Debug)]
 pub struct CylinderEstimator<'a, T> {
     points: Points<'a, T>,
@@ -55,6 +60,7 @@ impl<'a, T: Coordinate> CylinderEstimator<'a, T> {
 impl<T: Coordinate> Estimator for CylinderEstimator<'_, T> {
     type Model = Cylinder;
     const SAMPLE_SIZE: usize = 2;
+    const PARAMETERS: usize = 5;
 
     fn len(&self) -> usize {
         self.points.len()
@@ -85,10 +91,37 @@ impl<T: Coordinate> Estimator for CylinderEstimator<'_, T> {
         self.geometric(inliers, Some(weights), current, None)
     }
 
+    fn linearize(&self, cylinder: &Cylinder, datum: usize, rows: &mut Linearization) {
+        linearize::<CylinderChart, 5, 1>(cylinder, &self.points.get(datum), rows);
+    }
+
     fn residuals(&self, cylinder: &Cylinder, block: Range<usize>, out: &mut [f64]) {
         for (r, i) in out.iter_mut().zip(block) {
             *r = cylinder.signed_distance(&self.points.get(i)).abs();
         }
+    }
+
+    fn count_within(&self, cylinder: &Cylinder, block: Range<usize>, threshold: f64) -> usize {
+        simd::count(self.points.block(block), pipe::<T>(cylinder, threshold))
+    }
+
+    fn truncated_gain(&self, cylinder: &Cylinder, block: Range<usize>, threshold: f64) -> f64 {
+        if threshold == 0.0 {
+            return self.count_within(cylinder, block, threshold) as f64;
+        }
+        simd::gain(self.points.block(block), pipe::<T>(cylinder, threshold))
+    }
+
+    fn select_within(
+        &self,
+        cylinder: &Cylinder,
+        block: Range<usize>,
+        threshold: f64,
+        out: &mut Vec<usize>,
+    ) {
+        let first = block.start;
+        let kernel = pipe::<T>(cylinder, threshold);
+        simd::select(self.points.block(block), first, kernel, out);
     }
 }
 

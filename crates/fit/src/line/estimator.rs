@@ -1,14 +1,18 @@
+use crate::chart::linearize;
 use crate::held::HeldRefit;
 use crate::levenberg::Objective;
-use crate::line::LineChart;
+use crate::line::{LineChart, Tube};
 use crate::points::{centroid_and_extent, weighted};
 use crate::{Coordinate, Points, line_least_squares, simd};
-use nalgebra::Vector3;
 use pomona_geometry::Line;
-use pomona_ransac::{Candidates, Estimator};
+use pomona_ransac::{Candidates, Estimator, Linearization};
 use std::ops::Range;
 
 /// Lines through points, for `pomona-ransac`. A residual is the distance from the line.
+///
+/// The covariance in a report is by (τ₁, τ₂, o₁, o₂): with (u, v) = [`across`](pomona_geometry::across) of the
+/// direction e, e' ∝ e + τ₁ u + τ₂ v and a' = a + o₁ u + o₂ v, a being the line's point. A point has
+/// two residuals, along u and v.
 #[derive(Clone, Copy, Debug)]
 pub struct LineEstimator<'a, T> {
     points: Points<'a, T>,
@@ -21,60 +25,10 @@ impl<'a, T: Coordinate> LineEstimator<'a, T> {
     }
 }
 
-/// A line made ready for one threshold: two unit vectors across it, and the squared threshold.
-///
-/// The squared distance is the sum of two squares, which unlike |w|² − (w·e)²
-/// loses no digits far along the line.
-struct Tube<T> {
-    origin: [T; 3],
-    u: [T; 3],
-    v: [T; 3],
-    squared_threshold: T,
-}
-
-impl<T: Coordinate> Tube<T> {
-    /// A threshold that is negative or NaN holds nothing.
-    fn new(line: &Line, threshold: f64) -> Self {
-        let [u, v] = across(&line.direction);
-        let coordinates = |w: Vector3<f64>| [w.x, w.y, w.z].map(T::from_f64);
-        let square = if threshold >= 0.0 {
-            threshold * threshold
-        } else {
-            -1.0
-        };
-        Self {
-            origin: coordinates(line.point.coords),
-            u: coordinates(u),
-            v: coordinates(v),
-            squared_threshold: T::from_f64(square),
-        }
-    }
-
-    #[inline(always)]
-    fn holds(&self, x: T, y: T, z: T) -> bool {
-        let (wx, wy, wz) = (x - self.origin[0], y - self.origin[1], z - self.origin[2]);
-        let a = wx * self.u[0] + wy * self.u[1] + wz * self.u[2];
-        let b = wx * self.v[0] + wy * self.v[1] + wz * self.v[2];
-        a * a + b * b <= self.squared_threshold
-    }
-}
-
-/// Two unit vectors across a third and each other, without a square root (Duff et al. 2017,
-/// "Building an orthonormal basis, revisited", JCGT 6(1)).
-#[inline]
-fn across(e: &Vector3<f64>) -> [Vector3<f64>; 2] {
-    let sign = 1.0_f64.copysign(e.z);
-    let a = -1.0 / (sign + e.z);
-    let b = e.x * e.y * a;
-    [
-        Vector3::new(1.0 + sign * e.x * e.x * a, sign * b, -sign * e.x),
-        Vector3::new(b, sign + e.y * e.y * a, -e.y),
-    ]
-}
-
 impl<T: Coordinate> Estimator for LineEstimator<'_, T> {
     type Model = Line;
     const SAMPLE_SIZE: usize = 2;
+    const PARAMETERS: usize = 4;
 
     fn len(&self) -> usize {
         self.points.len()
@@ -95,6 +49,10 @@ impl<T: Coordinate> Estimator for LineEstimator<'_, T> {
         self.iterated(inliers, Some(weights), current, None)
     }
 
+    fn linearize(&self, line: &Line, datum: usize, rows: &mut Linearization) {
+        linearize::<LineChart, 4, 2>(line, &self.points.get(datum), rows);
+    }
+
     fn residuals(&self, line: &Line, block: Range<usize>, out: &mut [f64]) {
         for (r, i) in out.iter_mut().zip(block) {
             *r = line.distance(&self.points.get(i));
@@ -102,8 +60,14 @@ impl<T: Coordinate> Estimator for LineEstimator<'_, T> {
     }
 
     fn count_within(&self, line: &Line, block: Range<usize>, threshold: f64) -> usize {
-        let tube = Tube::<T>::new(line, threshold);
-        simd::count(self.points.block(block), |x, y, z| tube.holds(x, y, z))
+        simd::count(self.points.block(block), Tube::<T>::new(line, threshold))
+    }
+
+    fn truncated_gain(&self, line: &Line, block: Range<usize>, threshold: f64) -> f64 {
+        if threshold == 0.0 {
+            return self.count_within(line, block, threshold) as f64;
+        }
+        simd::gain(self.points.block(block), Tube::<T>::new(line, threshold))
     }
 
     fn select_within(
@@ -113,14 +77,9 @@ impl<T: Coordinate> Estimator for LineEstimator<'_, T> {
         threshold: f64,
         out: &mut Vec<usize>,
     ) {
-        let tube = Tube::<T>::new(line, threshold);
-        let (x, y, z) = self.points.block(block.clone());
-        let points = x.iter().zip(y).zip(z).zip(block);
-        out.extend(
-            points
-                .filter(|(((x, y), z), _)| tube.holds(**x, **y, **z))
-                .map(|(_, i)| i),
-        );
+        let first = block.start;
+        let kernel = Tube::<T>::new(line, threshold);
+        simd::select(self.points.block(block), first, kernel, out);
     }
 }
 

@@ -1,13 +1,17 @@
+use crate::chart::linearize;
 use crate::held::HeldRefit;
 use crate::levenberg::Objective;
-use crate::plane::PlaneChart;
+use crate::plane::{PlaneChart, Slab};
 use crate::points::{centroid_and_extent, weighted};
-use crate::{Coordinate, Points, plane_least_squares};
+use crate::{Coordinate, Points, plane_least_squares, simd};
 use pomona_geometry::Plane;
-use pomona_ransac::{Candidates, Estimator};
+use pomona_ransac::{Candidates, Estimator, Linearization};
 use std::ops::Range;
 
 /// Planes through points, for `pomona-ransac`. A residual is the distance from the plane.
+///
+/// The covariance in a report is by (τ₁, τ₂, s): with (u, v) = [`across`](pomona_geometry::across) of the normal n and f
+/// the plane's point nearest to the origin, n' ∝ n + τ₁ u + τ₂ v through f' = f + s n.
 #[derive(Clone, Copy, Debug)]
 pub struct PlaneEstimator<'a, T> {
     points: Points<'a, T>,
@@ -23,6 +27,7 @@ impl<'a, T: Coordinate> PlaneEstimator<'a, T> {
 impl<T: Coordinate> Estimator for PlaneEstimator<'_, T> {
     type Model = Plane;
     const SAMPLE_SIZE: usize = 3;
+    const PARAMETERS: usize = 3;
 
     fn len(&self) -> usize {
         self.points.len()
@@ -44,10 +49,37 @@ impl<T: Coordinate> Estimator for PlaneEstimator<'_, T> {
         self.iterated(inliers, Some(weights), current, None)
     }
 
+    fn linearize(&self, plane: &Plane, datum: usize, rows: &mut Linearization) {
+        linearize::<PlaneChart, 3, 1>(plane, &self.points.get(datum), rows);
+    }
+
     fn residuals(&self, plane: &Plane, block: Range<usize>, out: &mut [f64]) {
         for (r, i) in out.iter_mut().zip(block) {
             *r = plane.signed_distance(&self.points.get(i)).abs();
         }
+    }
+
+    fn count_within(&self, plane: &Plane, block: Range<usize>, threshold: f64) -> usize {
+        simd::count(self.points.block(block), Slab::<T>::new(plane, threshold))
+    }
+
+    fn truncated_gain(&self, plane: &Plane, block: Range<usize>, threshold: f64) -> f64 {
+        if threshold == 0.0 {
+            return self.count_within(plane, block, threshold) as f64;
+        }
+        simd::gain(self.points.block(block), Slab::<T>::new(plane, threshold))
+    }
+
+    fn select_within(
+        &self,
+        plane: &Plane,
+        block: Range<usize>,
+        threshold: f64,
+        out: &mut Vec<usize>,
+    ) {
+        let first = block.start;
+        let kernel = Slab::<T>::new(plane, threshold);
+        simd::select(self.points.block(block), first, kernel, out);
     }
 }
 

@@ -1,10 +1,11 @@
+use crate::chart::linearize;
 use crate::held::HeldRefit;
 use crate::points::weighted;
 use crate::prior::Knowledge;
-use crate::sphere::{FourPoints, SphereSample, sphere_held};
+use crate::sphere::{FourPoints, SphereChart, SphereSample, shell, sphere_held};
 use crate::{Coordinate, Points, PriorError, RadiusPrior, simd, sphere_least_squares};
 use pomona_geometry::Sphere;
-use pomona_ransac::{Candidates, Estimator};
+use pomona_ransac::{Candidates, Estimator, Linearization};
 use std::ops::Range;
 
 /// How a sphere is refitted to its inliers.
@@ -21,6 +22,9 @@ pub enum SphereRefit {
 /// Spheres through points, for `pomona-ransac`. A residual is the distance from the surface.
 ///
 /// `S` is what a minimal sample is: four points unless [`sampling`](Self::sampling) says otherwise.
+///
+/// The covariance in a report is by the shift of the centre along x, y and z and the change of the radius.
+/// A prior is not part of it: it says what the points alone tell.
 #[derive(Clone, Copy, Debug)]
 pub struct SphereEstimator<'a, T, S = FourPoints> {
     points: Points<'a, T>,
@@ -78,56 +82,11 @@ impl<'a, T: Coordinate, S> SphereEstimator<'a, T, S> {
     }
 }
 
-/// A sphere made ready for one threshold: a point supports it where `low <= d² <= high`.
-struct Shell<T> {
-    center: [T; 3],
-    low: T,
-    high: T,
-}
-
-impl<T: Coordinate> Shell<T> {
-    /// d lies within `threshold` of r exactly where d² lies between these squares.
-    /// A threshold that is negative or NaN leaves nothing between them.
-    fn new(sphere: &Sphere, threshold: f64) -> Self {
-        let r = sphere.radius;
-        let (low, high) = if threshold >= 0.0 {
-            let inner = r - threshold;
-            (
-                if inner > 0.0 { inner * inner } else { 0.0 },
-                (r + threshold).powi(2),
-            )
-        } else {
-            (1.0, -1.0)
-        };
-        let [x, y, z] = [sphere.center.x, sphere.center.y, sphere.center.z];
-        Self {
-            center: [x, y, z].map(T::from_f64),
-            low: T::from_f64(low),
-            high: T::from_f64(high),
-        }
-    }
-
-    #[inline(always)]
-    fn squared_distance(&self, x: T, y: T, z: T) -> T {
-        let (dx, dy, dz) = (x - self.center[0], y - self.center[1], z - self.center[2]);
-        dx * dx + dy * dy + dz * dz
-    }
-
-    #[expect(
-        clippy::needless_bitwise_bool,
-        reason = "a branch in the inner loop keeps it from being vectorised"
-    )]
-    #[inline(always)]
-    fn holds(&self, x: T, y: T, z: T) -> bool {
-        let d2 = self.squared_distance(x, y, z);
-        (self.low <= d2) & (d2 <= self.high)
-    }
-}
-
 impl<T: Coordinate, S: SphereSample<T>> Estimator for SphereEstimator<'_, T, S> {
     type Model = Sphere;
     const SAMPLE_SIZE: usize = S::SIZE;
     const MAX_MODELS: usize = S::MODELS;
+    const PARAMETERS: usize = 4;
 
     fn len(&self) -> usize {
         self.points.len()
@@ -156,6 +115,10 @@ impl<T: Coordinate, S: SphereSample<T>> Estimator for SphereEstimator<'_, T, S> 
         }
     }
 
+    fn linearize(&self, sphere: &Sphere, datum: usize, rows: &mut Linearization) {
+        linearize::<SphereChart, 4, 1>(sphere, &self.points.get(datum), rows);
+    }
+
     fn residuals(&self, sphere: &Sphere, block: Range<usize>, out: &mut [f64]) {
         for (r, i) in out.iter_mut().zip(block) {
             *r = sphere.signed_distance(&self.points.get(i)).abs();
@@ -163,8 +126,14 @@ impl<T: Coordinate, S: SphereSample<T>> Estimator for SphereEstimator<'_, T, S> 
     }
 
     fn count_within(&self, sphere: &Sphere, block: Range<usize>, threshold: f64) -> usize {
-        let shell = Shell::<T>::new(sphere, threshold);
-        simd::count(self.points.block(block), |x, y, z| shell.holds(x, y, z))
+        simd::count(self.points.block(block), shell::<T>(sphere, threshold))
+    }
+
+    fn truncated_gain(&self, sphere: &Sphere, block: Range<usize>, threshold: f64) -> f64 {
+        if threshold == 0.0 {
+            return self.count_within(sphere, block, threshold) as f64;
+        }
+        simd::gain(self.points.block(block), shell::<T>(sphere, threshold))
     }
 
     fn select_within(
@@ -174,14 +143,9 @@ impl<T: Coordinate, S: SphereSample<T>> Estimator for SphereEstimator<'_, T, S> 
         threshold: f64,
         out: &mut Vec<usize>,
     ) {
-        let shell = Shell::<T>::new(sphere, threshold);
-        let (x, y, z) = self.points.block(block.clone());
-        let points = x.iter().zip(y).zip(z).zip(block);
-        out.extend(
-            points
-                .filter(|(((x, y), z), _)| shell.holds(**x, **y, **z))
-                .map(|(_, i)| i),
-        );
+        let first = block.start;
+        let kernel = shell::<T>(sphere, threshold);
+        simd::select(self.points.block(block), first, kernel, out);
     }
 }
 

@@ -60,6 +60,10 @@ pub(crate) fn sphere_held(
 }
 
 /// [`sphere_weighted`], among all spheres.
+#[expect(
+    clippy::needless_pass_by_value,
+    reason = "an iterator is taken whole, as by the other solvers"
+)]
 fn newton(
     points: impl Iterator<Item = (Point3<f64>, f64)> + Clone,
     start: &Sphere,

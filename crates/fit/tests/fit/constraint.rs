@@ -115,7 +115,7 @@ fn rod(line: &Line, n: usize, noise: f64, seed: u64) -> Vec<Point3<f64>> {
 }
 
 fn clutter(points: &mut Vec<Point3<f64>>, n: usize, seed: u64) {
-    let mut rng = ChaCha8Rng::seed_from_u64(seed ^ 77);
+    let mut rng = ChaCha8Rng::seed_from_u64(seed ^ 0x77);
     let center = points[0];
     points.extend((0..n).map(|_| center + shift(&mut rng, 0.1)));
 }

@@ -3,6 +3,7 @@
 mod capsule;
 mod circle;
 mod constraint;
+mod covariance;
 
 mod cylinder;
 mod shapes;

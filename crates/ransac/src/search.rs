@@ -98,7 +98,7 @@ where
     /// Searches; the best model and the runners-up, each after its last refit.
     pub(crate) fn candidates(mut self) -> Result<Vec<Scored<E::Model>>, RansacError> {
         let (best, _) = self.best_hypothesis()?;
-        let mut all = Vec::with_capacity(1 + self.keep.models);
+        let mut all = Vec::new();
         self.refit_each(best, |refitted| all.push(refitted));
         Ok(all)
     }
@@ -160,7 +160,7 @@ where
     /// no more than the rule still wants.
     fn round_size(&self) -> u64 {
         let settings = &self.parts.settings;
-        let largest = settings.round as u64 * settings.threads as u64;
+        let largest = (settings.round as u64).saturating_mul(settings.threads as u64);
         let grown = (self.progress.draws / 8).max(settings.threads as u64);
         let wanted = self.parts.stopping.draws_left(&self.progress);
         grown.min(largest).min(wanted).max(1)

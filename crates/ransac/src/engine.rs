@@ -187,13 +187,14 @@ impl<S, P, C, L, T, B> Ransac<S, P, C, L, T, B> {
         self
     }
 
-    /// Shares the work among `threads` tasks of the current `rayon` pool; 0 is taken as 1.
+    /// Shares the work among `threads` tasks of the current `rayon` pool; 0 is taken as 1, and
+    /// more than 1024 as 1024.
     ///
     /// Only the speed depends on it: the report is the same for any number of threads, bit for bit.
     #[cfg(feature = "rayon")]
     #[must_use]
     pub fn threads(mut self, threads: usize) -> Self {
-        self.settings.threads = threads.max(1);
+        self.settings.threads = threads.clamp(1, 1024);
         self
     }
 
@@ -250,7 +251,7 @@ impl<S, P, C, L, T, B> Ransac<S, P, C, L, T, B> {
         Ok(workspace.report.insert(report))
     }
 
-    /// Searches, and gives not the best model alone but up to `models` that differ: the best hypothesis
+    /// Searches, and gives not the best model alone but up to `models`, and 1000 at most, that differ: the best hypothesis
     /// and those next to it, however low their scores, each after its last refit.
     ///
     /// They are the candidates among which a [`Competition`](crate::Competition) chooses. No hypothesis is given up by

@@ -95,7 +95,8 @@ pub trait Estimator: Sync {
         }
         self.fold_residuals(model, block, 0.0, |gain, _, r| {
             if r <= threshold {
-                gain + (1.0 - (r / threshold).powi(2))
+                // The lesser of NaN, an infinite residual's share of an infinite threshold, and 1 is 1.
+                gain + (1.0 - (r / threshold).powi(2).min(1.0))
             } else {
                 gain
             }

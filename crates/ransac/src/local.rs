@@ -106,7 +106,7 @@ pub trait LocalOptimization<E: Estimator> {
         best: Scored<E::Model>,
     ) -> Scored<E::Model>;
 
-    /// How many of the best other hypotheses the search keeps for the end; none by default.
+    /// How many of the best other hypotheses the search keeps for the end, 1000 at most; none by default.
     fn runners_up(&self) -> usize {
         0
     }
@@ -142,13 +142,12 @@ impl<E: Estimator> LocalOptimization<E> for RefitOnce {
         refiner: &mut Refiner<'_, E, S, C>,
         best: Scored<E::Model>,
     ) -> Scored<E::Model> {
-        match refiner.refit(&best.model) {
-            Some(model) => {
-                let score = refiner
-                    .score(&model, f64::NEG_INFINITY)
-                    .unwrap_or(f64::NEG_INFINITY);
-                Scored { model, score }
-            }
+        let Some(model) = refiner.refit(&best.model) else {
+            return best;
+        };
+        // A score that is not a number is none.
+        match refiner.score(&model, f64::NEG_INFINITY) {
+            Some(score) => Scored { model, score },
             None => best,
         }
     }

@@ -3,6 +3,9 @@ use crate::Scored;
 /// Two hypotheses whose inliers have more than this share of their union in common are taken for one.
 const SAME: f64 = 0.8;
 
+/// How many runners-up are kept at most, whatever is asked for: each takes a bit for each datum.
+pub(crate) const MAX_RUNNERS_UP: usize = 1000;
+
 /// Which runners-up a search keeps.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Keep {
@@ -50,6 +53,7 @@ impl<M> Default for RunnersUp<M> {
 impl<M> RunnersUp<M> {
     /// Readies the memory for `limit` hypotheses over `data` data.
     pub(crate) fn prepare(&mut self, limit: usize, data: usize) {
+        let limit = limit.min(MAX_RUNNERS_UP);
         self.kept.clear();
         self.kept.reserve(limit);
         self.limit = limit;

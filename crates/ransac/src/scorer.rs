@@ -65,13 +65,9 @@ pub trait Scorer<E: Estimator>: Sync {
         range.len() as f64
     }
 
-    /// The fraction of its threshold that a residual of an inlier is; 0 for none, whatever the threshold.
+    /// The fraction of its threshold, from 0 to 1, that the residual of an inlier is.
     fn fraction_of(&self, model: &E::Model, datum: usize, residual: f64) -> f64 {
-        if residual > 0.0 {
-            residual / self.threshold_of(model, datum)
-        } else {
-            0.0
-        }
+        fraction(residual, self.threshold_of(model, datum))
     }
 
     /// The score of `model` where it exceeds `bound`.
@@ -104,6 +100,17 @@ pub trait Scorer<E: Estimator>: Sync {
         for block in blocks(estimator.len()) {
             estimator.select_within(model, block, threshold, out);
         }
+    }
+}
+
+/// An inlier's residual as a fraction of its threshold: 0 for no residual, whatever the threshold, and 1 for
+/// an infinite one of an infinite threshold, or where a comparison of squares let one through that is
+/// a rounding too large.
+fn fraction(residual: f64, threshold: f64) -> f64 {
+    if residual > 0.0 {
+        (residual / threshold).min(1.0)
+    } else {
+        0.0
     }
 }
 
@@ -174,12 +181,9 @@ impl<T> MarginalScore<T> {
 impl<E: Estimator, T: Threshold<E::Model>> Scorer<E> for MarginalScore<T> {
     fn block_gain(&self, estimator: &E, model: &E::Model, block: Range<usize>) -> f64 {
         let threshold = self.threshold.for_model(model);
-        if threshold == 0.0 {
-            return estimator.count_within(model, block, threshold) as f64;
-        }
         estimator.fold_residuals(model, block, 0.0, |gain, _, residual| {
             if residual <= threshold {
-                gain + Marginal.gain(residual / threshold)
+                gain + Marginal.gain(fraction(residual, threshold))
             } else {
                 gain
             }

@@ -98,7 +98,7 @@ where
     /// Searches; the best model and the runners-up, each after its last refit.
     pub(crate) fn candidates(mut self) -> Result<Vec<Scored<E::Model>>, RansacError> {
         let (best, _) = self.best_hypothesis()?;
-        let mut all = Vec::with_capacity(1 + self.keep.models);
+        let mut all = Vec::new();
         self.refit_each(best, |refitted| all.push(refitted));
         Ok(all)
     }
@@ -155,14 +155,17 @@ where
         }
     }
 
-    /// How many iterations the next round computes: an eighth of those so far, so that
-    /// few are computed in vain when the rule ends the search in the middle of a round, and
-    /// no more than the rule still wants.
+    /// How many iterations the next round computes: no more than the rule still wants, and few in vain
+    /// when the rule ends the search in the middle of a round. So the rounds double only as long as the
+    /// rule wants many more, and are an eighth of what was drawn after that.
     fn round_size(&self) -> u64 {
         let settings = &self.parts.settings;
-        let largest = settings.round as u64 * settings.threads as u64;
-        let grown = (self.progress.draws / 8).max(settings.threads as u64);
+        let threads = settings.threads as u64;
+        let largest = (settings.round as u64).saturating_mul(threads);
+        let drawn = self.progress.draws;
         let wanted = self.parts.stopping.draws_left(&self.progress);
+        let doubled = drawn.min(wanted / 8);
+        let grown = doubled.max(drawn / 8).max(threads);
         grown.min(largest).min(wanted).max(1)
     }
 

@@ -37,7 +37,7 @@ impl<L> NearBest<L> {
         }
     }
 
-    /// Refits at most `models` hypotheses beside the best.
+    /// Refits at most `models` hypotheses beside the best; more than 1000 are taken as 1000.
     #[must_use]
     pub fn models(self, models: usize) -> Self {
         Self { models, ..self }

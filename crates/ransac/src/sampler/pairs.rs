@@ -33,7 +33,7 @@ impl<A: Partners> Pairs<A> {
     pub fn new(data: usize, partners: A) -> Self {
         let ends = (0..data)
             .scan(0_u64, |pairs, datum| {
-                *pairs += partners.count(datum) as u64;
+                *pairs = pairs.saturating_add(partners.count(datum) as u64);
                 Some(*pairs)
             })
             .collect();

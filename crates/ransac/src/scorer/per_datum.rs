@@ -1,4 +1,4 @@
-use super::{Kernel, Scorer};
+use super::{Kernel, Scorer, fraction};
 use crate::{Estimator, estimator::blocks};
 use std::ops::Range;
 use thiserror::Error;
@@ -125,12 +125,7 @@ impl<E: Estimator, K: Kernel> Scorer<E> for PerDatum<K> {
             if !self.is_inlier(datum, residual) {
                 return gain;
             }
-            // A residual of zero is the whole gain for a threshold of zero as well.
-            let fraction = if residual > 0.0 {
-                residual / self.thresholds[datum]
-            } else {
-                0.0
-            };
+            let fraction = fraction(residual, self.thresholds[datum]);
             gain + self.weight(datum) * self.kernel.gain(fraction)
         })
     }

@@ -17,8 +17,7 @@ pub(super) fn claim<E: Estimator, S: Scorer<E>>(
         estimator.fold_residuals(model, block, (), |(), datum, residual| {
             if next.next_if_eq(&datum).is_some() {
                 let fraction = scorer.fraction_of(model, datum, residual);
-                // A squared comparison may select what lies past its threshold by a rounding.
-                let gain = scorer.weight_of(datum) * scorer.gain_at(fraction.min(1.0));
+                let gain = scorer.weight_of(datum) * scorer.gain_at(fraction);
                 if gain >= 0.0 {
                     claim.push((datum, gain));
                 }

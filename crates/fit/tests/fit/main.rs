@@ -6,5 +6,7 @@ mod constraint;
 mod covariance;
 
 mod cylinder;
+mod quality;
 mod shapes;
 mod sphere;
+mod structures;

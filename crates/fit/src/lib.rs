@@ -33,9 +33,15 @@
 //!   The arithmetic of scoring is done in that type, all fitting in `f64`.
 //! - A solver is a plain function from points to a primitive. A sample or a set that does
 //!   not determine the primitive (coincident, collinear, coplanar, not finite) gives `None`.
-//! - An estimator ([`SphereEstimator`], [`LineEstimator`], [`PlaneEstimator`], [`CylinderEstimator`]) is the view
-//!   that `pomona-ransac` works with; constraints ([`RadiusWindow`],
-//!   [`DistanceWindow`]) go with it.
+//!   Minimal ones are called `…_through`; the refits `…_geometric` and `…_weighted` take a start and never worsen it.
+//! - An estimator ([`SphereEstimator`], [`LineEstimator`], [`PlaneEstimator`], [`CylinderEstimator`],
+//!   [`CapsuleEstimator`], [`CircleEstimator`]) is the view that `pomona-ransac` works with. What a sphere's
+//!   sample is can be chosen: [`FourPoints`], [`ThreePointsAndRadius`], [`TwoNormals`].
+//! - A [`RadiusPrior`] counts in refits like one more measurement.
+//! - Constraints ([`RadiusWindow`], [`DistanceWindow`], [`AngleWindow`], [`CenterSide`], [`FootSide`]) hold in
+//!   the search, and a refit that breaks one is done again under it: [`HeldRefit`] finds the best fit on the bound.
+//!   [`Refusing`] makes one refuse such a refit instead.
+//! - The covariance in a report is by a shape's local parameters, which its estimator's page names.
 //!
 //! # Not here
 //!
@@ -60,7 +66,7 @@ mod sphere;
 pub use capsule::{CapsuleEstimator, capsule_along};
 pub use circle::{CircleEstimator, circle_geometric, circle_through, circle_weighted};
 pub use constraint::{
-    AngleWindow, CenterSide, DistanceWindow, FootSide, RadiusWindow, WindowError,
+    AngleWindow, CenterSide, DistanceWindow, FootSide, RadiusWindow, Refusing, WindowError,
 };
 pub use coordinate::Coordinate;
 pub use cylinder::{

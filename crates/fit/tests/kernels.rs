@@ -1,8 +1,10 @@
 //! The fast scoring paths agree with each other and with the plain residuals.
 
 use nalgebra::{Point3, Vector3};
-use pomona_fit::{LineEstimator, Points, SphereEstimator, SphereRefit};
-use pomona_geometry::{Line, Sphere};
+use pomona_fit::{
+    CylinderEstimator, LineEstimator, PlaneEstimator, Points, SphereEstimator, SphereRefit,
+};
+use pomona_geometry::{Cylinder, Line, Plane, Sphere};
 use pomona_ransac::{BLOCK, Estimator};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -30,6 +32,12 @@ fn check<E: Estimator>(estimator: &E, model: &E::Model, threshold: f64, slack: f
         estimator.select_within(model, block.clone(), threshold, &mut selected);
         let mut residuals = vec![0.0; block.len()];
         estimator.residuals(model, block.clone(), &mut residuals);
+        let gain = estimator.truncated_gain(model, block.clone(), threshold);
+        let within = residuals.iter().filter(|r| **r <= threshold);
+        let exact: f64 = within.map(|r| 1.0 - (r / threshold).powi(2)).sum();
+        // A gain changes by twice the residual's error, in thresholds.
+        let tolerance = block.len() as f64 * (4.0 * slack / threshold + 1e-6);
+        assert!((gain - exact).abs() < tolerance, "{gain} and {exact}");
         for (i, r) in block.zip(residuals) {
             // Nearer to the threshold than the arithmetic's rounding either answer is right.
             if (r - threshold).abs() > slack {
@@ -92,6 +100,42 @@ fn line_paths_agree_near_the_threshold() {
         0.005,
         2e-7,
     );
+}
+
+#[test]
+fn plane_and_cylinder_paths_agree_near_the_threshold() {
+    let axis = Line::new(Point3::new(0.13, -0.08, 0.8), Vector3::new(1.0, -2.0, 0.7)).unwrap();
+    let cylinder = Cylinder::new(axis, 0.01).unwrap();
+    let about = near(3, 200_000, |u, off| {
+        axis.at(u.z * 0.1) + axis.direction.cross(&u).normalize() * (0.014 + off)
+    });
+    let plane = Plane::new(axis.point, Vector3::new(0.2, 0.3, -1.0)).unwrap();
+    let over = near(4, 200_000, |u, off| {
+        let foot = plane.project(&(axis.point + u * 0.1));
+        foot + plane.normal.into_inner() * (0.004 + off).copysign(u.x)
+    });
+    let [x, y, z] = &about;
+    let points = Points::new(x, y, z).unwrap();
+    check(
+        &CylinderEstimator::new(points, points),
+        &cylinder,
+        0.004,
+        1e-15,
+    );
+    let [x, y, z] = &over;
+    let points = Points::new(x, y, z).unwrap();
+    check(&PlaneEstimator::new(points), &plane, 0.004, 1e-15);
+    let [x, y, z] = &about.map(|v| v.into_iter().map(|c| c as f32).collect::<Vec<_>>());
+    let points = Points::new(x, y, z).unwrap();
+    check(
+        &CylinderEstimator::new(points, points),
+        &cylinder,
+        0.004,
+        2e-7,
+    );
+    let [x, y, z] = &over.map(|v| v.into_iter().map(|c| c as f32).collect::<Vec<_>>());
+    let points = Points::new(x, y, z).unwrap();
+    check(&PlaneEstimator::new(points), &plane, 0.004, 2e-7);
 }
 
 #[test]

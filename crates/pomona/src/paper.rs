@@ -5,7 +5,7 @@ use crate::{PaperConfig, Status};
 use nalgebra::Point3;
 use pomona_cloud::DepthPoints;
 use pomona_fit::{
-    DistanceWindow, LineEstimator, Points, RadiusWindow, SphereEstimator, SphereRefit,
+    DistanceWindow, LineEstimator, Points, RadiusWindow, Refusing, SphereEstimator, SphereRefit,
     sphere_least_squares,
 };
 use pomona_geometry::{Line, Sphere};
@@ -39,7 +39,7 @@ pub(crate) fn fit_sphere(
     let report = Ransac::new(InlierCount::within(move |sphere: &Sphere| {
         band * sphere.radius
     }))
-    .constraint(window)
+    .constraint(Refusing(window))
     .local_optimization(RefitOnce)
     .stopping(FixedCount::new(config.sphere_iterations))
     .min_inliers(config.sphere_min_points)
@@ -86,7 +86,7 @@ pub(crate) fn fit_branch(
     )
     .map_err(|_| Status::NoBranch)?;
     Ransac::new(InlierCount::within(config.line_band_m))
-        .constraint(window)
+        .constraint(Refusing(window))
         .local_optimization(RefitOnce)
         .stopping(FixedCount::new(config.line_iterations))
         .min_inliers(config.line_min_points)

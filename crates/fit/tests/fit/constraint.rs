@@ -4,7 +4,8 @@ use crate::shapes::{cap, columns, direction, gauss, side};
 use nalgebra::{Point3, Unit, Vector3};
 use pomona_fit::{
     AngleWindow, CenterSide, CircleEstimator, CylinderEstimator, DistanceWindow, FootSide,
-    HeldRefit, LineEstimator, PlaneEstimator, Points, RadiusWindow, SphereEstimator, SphereRefit,
+    HeldRefit, LineEstimator, PlaneEstimator, Points, RadiusWindow, Refusing, SphereEstimator,
+    SphereRefit,
 };
 use pomona_geometry::{Circle, Cylinder, Line, Plane, Sphere, angle_between_axes};
 use pomona_ransac::{
@@ -296,6 +297,13 @@ fn a_refit_that_leaves_the_window_is_kept_on_its_bound() {
         .unwrap();
     assert!((report.model.radius - 0.0395).abs() < 1e-9);
     assert_eq!(report.counts.rejections()[0].refits, 0);
+    let refused = Ransac::new(Msac::within(0.002))
+        .constraint(Refusing(RadiusWindow::new(0.02, 0.0395).unwrap()))
+        .local_optimization(LeastSquares::default())
+        .stopping(FixedCount::new(200))
+        .run(&estimator, &mut ChaCha8Rng::seed_from_u64(2))
+        .unwrap();
+    assert!(refused.counts.rejections()[0].refits > 0 && refused.score < report.score);
     let scorer = Msac::within(0.002);
     assert_eq!(
         scorer.score(&estimator, &report.model, 0.0),

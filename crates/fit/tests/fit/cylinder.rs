@@ -169,3 +169,29 @@ fn a_search_finds_a_cylinder_among_outliers() {
     none.fit(&[0, 5], &mut candidates);
     assert!(candidates.is_empty());
 }
+
+#[test]
+fn the_radius_of_a_visible_side_has_no_bias() {
+    // 140° of a branch of 8 mm with 0.5 mm noise: of second order a distance fit is off by σ²/2r = 16 µm.
+    let truth = cylinder(
+        Vector3::new(0.1, 0.1, 0.8),
+        Unit::new_normalize(Vector3::new(0.3, 1.0, 0.1)),
+        0.008,
+    );
+    let radii: Vec<f64> = (0..300)
+        .map(|seed| {
+            let (points, _) = side(&truth, 300, (1.22, 0.08, 0.0005), seed);
+            cylinder_geometric(points.into_iter(), &truth)
+                .expect("a cylinder")
+                .radius
+        })
+        .collect();
+    let mean = radii.iter().sum::<f64>() / 300.0;
+    let spread = radii.iter().map(|r| (r - mean).powi(2)).sum::<f64>() / 299.0;
+    let standard_error = (spread / 300.0).sqrt();
+    assert!(
+        (mean - 0.008).abs() < 3.0 * standard_error + 2.5e-5,
+        "{mean} ± {standard_error}"
+    );
+    assert!(spread.sqrt() < 2.5e-4, "{}", spread.sqrt());
+}

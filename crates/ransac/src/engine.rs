@@ -28,6 +28,8 @@ pub(crate) struct Settings {
     pub(crate) round: usize,
     /// Threads that share a round.
     pub(crate) threads: usize,
+    /// Whether the report has the noise and the covariance.
+    pub(crate) covariance: bool,
 }
 
 impl<S> Ransac<S> {
@@ -44,6 +46,7 @@ impl<S> Ransac<S> {
                 min_inliers: 0,
                 round: 32,
                 threads: 1,
+                covariance: true,
             },
         }
     }
@@ -173,6 +176,16 @@ impl<S, P, C, L, T, B> Ransac<S, P, C, L, T, B> {
     #[must_use]
     pub fn min_inliers(mut self, min_inliers: usize) -> Self {
         self.settings.min_inliers = min_inliers;
+        self
+    }
+
+    /// Whether the report has the noise and the covariance of the model, where the estimator gives
+    /// derivatives; `true` by default.
+    ///
+    /// They take one pass over the inliers, which counts where a search takes less than a millisecond.
+    #[must_use]
+    pub fn covariance(mut self, wanted: bool) -> Self {
+        self.settings.covariance = wanted;
         self
     }
 

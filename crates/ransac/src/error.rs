@@ -1,11 +1,10 @@
-use thiserror::Error;
+use std::{error::Error, fmt};
 
 /// Why a search gave no model.
-#[derive(Clone, Debug, Error, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum RansacError {
     /// There are fewer data than a minimal sample has.
-    #[error("too few data: a minimal sample has {needed}, there are {available}")]
     TooFewData {
         /// Data in a minimal sample.
         needed: usize,
@@ -13,13 +12,11 @@ pub enum RansacError {
         available: usize,
     },
     /// No sample gave any model: the data coincide, lie in a degenerate place, or are not finite.
-    #[error("all {draws} samples were degenerate")]
     AllDegenerate {
         /// Samples drawn.
         draws: u64,
     },
     /// There were models, and the constraints refused every one.
-    #[error("the constraint '{constraint}' refused most of {draws} samples, and none was left")]
     ConstraintNeverMet {
         /// Samples drawn.
         draws: u64,
@@ -27,7 +24,6 @@ pub enum RansacError {
         constraint: &'static str,
     },
     /// The best model has too few inliers.
-    #[error("no consensus: the best model has {inliers} inliers of the {needed} needed")]
     NoConsensus {
         /// Inliers of the best model.
         inliers: usize,
@@ -35,6 +31,28 @@ pub enum RansacError {
         needed: usize,
     },
     /// The stopping rule ended the search before the first sample.
-    #[error("the stopping rule allows no sample")]
     NothingDrawn,
 }
+
+impl fmt::Display for RansacError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::TooFewData { needed, available } => write!(
+                f,
+                "too few data: a minimal sample has {needed}, there are {available}"
+            ),
+            Self::AllDegenerate { draws } => write!(f, "all {draws} samples were degenerate"),
+            Self::ConstraintNeverMet { draws, constraint } => write!(
+                f,
+                "the constraint '{constraint}' refused most of {draws} samples, and none was left"
+            ),
+            Self::NoConsensus { inliers, needed } => write!(
+                f,
+                "no consensus: the best model has {inliers} inliers of the {needed} needed"
+            ),
+            Self::NothingDrawn => f.write_str("the stopping rule allows no sample"),
+        }
+    }
+}
+
+impl Error for RansacError {}

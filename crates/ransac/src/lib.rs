@@ -141,6 +141,7 @@ pub use estimator::{BLOCK, Estimator};
 pub use linearization::{Linearization, MAX_PARAMETERS};
 pub use local::{
     LeastSquares, LocalOptimization, NearBest, NoRefit, Refiner, RefitOnce, Reweighted, Scored,
+    Then,
 };
 pub use preemption::{Exhaustive, Look, Lossless, MAX_LOOKS, Preemption, Statistical};
 pub use report::{Counts, MAX_RULES, Rejections, Report, ResidualStatistics};

@@ -153,6 +153,43 @@ impl<E: Estimator> LocalOptimization<E> for RefitOnce {
     }
 }
 
+/// One local optimisation in the search, and another after it at the end.
+///
+/// `Then(LeastSquares::default(), RefitOnce)` climbs the score as long as it grows and gives the least-squares fit to
+/// the final inliers, even where its score is a little lower. Under [`InlierCount`](crate::InlierCount) that model is the
+/// more accurate one: a count says nothing of how far off the inliers lie.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Then<First, Last>(pub First, pub Last);
+
+impl<E: Estimator, A: LocalOptimization<E>, B: LocalOptimization<E>> LocalOptimization<E>
+    for Then<A, B>
+{
+    fn improve<S: Scorer<E>, C: Constraints<E>>(
+        &self,
+        refiner: &mut Refiner<'_, E, S, C>,
+        best: Scored<E::Model>,
+    ) -> Scored<E::Model> {
+        self.0.improve(refiner, best)
+    }
+
+    fn finish<S: Scorer<E>, C: Constraints<E>>(
+        &self,
+        refiner: &mut Refiner<'_, E, S, C>,
+        best: Scored<E::Model>,
+    ) -> Scored<E::Model> {
+        let climbed = self.0.finish(refiner, best);
+        self.1.finish(refiner, climbed)
+    }
+
+    fn runners_up(&self) -> usize {
+        self.0.runners_up()
+    }
+
+    fn near(&self) -> f64 {
+        self.0.near()
+    }
+}
+
 /// Refits each new best model to its inliers again and again, as long as the score grows.
 #[derive(Clone, Copy, Debug)]
 pub struct LeastSquares {

@@ -316,7 +316,11 @@ where
         let stated = self.parts.stopping.confidence(&self.progress);
         let confidence =
             stated.unwrap_or_else(|| 1.0 - Confidence::miss_probability(&self.progress));
-        let (sigma, covariance) = uncertainty(self.estimator, &self.parts.scorer, &model, &inliers);
+        let (sigma, covariance) = if self.parts.settings.covariance {
+            uncertainty(self.estimator, &self.parts.scorer, &model, &inliers)
+        } else {
+            (None, None)
+        };
         Ok(Report {
             sigma,
             covariance,

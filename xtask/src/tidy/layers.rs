@@ -47,7 +47,7 @@ const FORBIDDEN: &[(&str, &str, &str)] = &[
 /// The engine is for strangers: it brings nothing along but these,
 /// and whoever holds its folder alone can build and test it.
 pub(super) const ENGINE: &str = "pomona-ransac";
-const ENGINE_NEEDS: [&str; 2] = ["rand_core", "thiserror"];
+const ENGINE_NEEDS: [&str; 1] = ["rand_core"];
 const ENGINE_MAY_WANT: [&str; 1] = ["rayon"];
 
 /// The package of these commands, which know the programs and no library.

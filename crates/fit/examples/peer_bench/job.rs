@@ -6,8 +6,8 @@ use pomona_fit::{
 };
 use pomona_geometry::{Line, Sphere};
 use pomona_ransac::{
-    Confidence, Exhaustive, FixedCount, InlierCount, Lossless, Preemption, Progress, Ransac,
-    RefitOnce, Shuffle, Statistical, StopReason, Stopping, Workspace,
+    Confidence, Exhaustive, FixedCount, InlierCount, LeastSquares, Lossless, Preemption, Progress,
+    Ransac, RefitOnce, Shuffle, Statistical, StopReason, Stopping, Then, Workspace,
 };
 use rand_chacha::{ChaCha8Rng, rand_core::SeedableRng};
 use std::error::Error;
@@ -107,6 +107,7 @@ impl Server {
         let report = Ransac::new(InlierCount::within(search.threshold))
             .constraint(window)
             .local_optimization(RefitOnce)
+            .covariance(false)
             .preemption(preemption)
             .stopping(search.stopping)
             .run_with(
@@ -148,7 +149,8 @@ impl Server {
         let points = arranged::<B>(&mut self.shuffled, cloud, &mut rng)?;
         let report = Ransac::new(InlierCount::within(search.threshold))
             .constraint(window)
-            .local_optimization(RefitOnce)
+            .local_optimization(Then(LeastSquares::default(), RefitOnce))
+            .covariance(false)
             .preemption(preemption)
             .stopping(search.stopping)
             .run_with(&mut self.lines, &LineEstimator::new(points), &mut rng);

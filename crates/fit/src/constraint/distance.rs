@@ -35,7 +35,8 @@ impl<E: HeldRefit<Model: Straight>> Constraint<E> for DistanceWindow {
     }
 
     fn allows_model(&self, _: &E, model: &E::Model) -> bool {
-        self.window.contains(self.distance(model))
+        let square = (model.nearest(&self.point) - self.point).norm_squared();
+        self.window.contains_root_of(square)
     }
 
     fn restore(

@@ -37,6 +37,12 @@ impl Window {
         (self.min..=self.max).contains(&value)
     }
 
+    /// Whether the root of `square` is contained, without taking it.
+    #[inline]
+    pub(crate) fn contains_root_of(&self, square: f64) -> bool {
+        (self.min * self.min..=self.max * self.max).contains(&square)
+    }
+
     /// The best fit for which `quantity` has the bound that the refit `left` has crossed.
     pub(crate) fn restore<E: HeldRefit>(
         &self,

@@ -1,7 +1,6 @@
 use super::{Kernel, Scorer, fraction};
 use crate::{Estimator, estimator::blocks};
-use std::ops::Range;
-use thiserror::Error;
+use std::{error::Error, fmt, ops::Range};
 
 /// A score in which every datum has a threshold and a weight of its own.
 ///
@@ -29,11 +28,10 @@ pub struct PerDatum<K> {
 }
 
 /// Thresholds or weights that make no score.
-#[derive(Clone, Debug, Error, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum PerDatumError {
     /// A threshold is negative or NaN.
-    #[error("the threshold of datum {datum} is {threshold}: give one of 0 or more")]
     Threshold {
         /// Number of the datum.
         datum: usize,
@@ -41,7 +39,6 @@ pub enum PerDatumError {
         threshold: f64,
     },
     /// A weight is not between 0 and 1.
-    #[error("the weight of datum {datum} is {weight}: give one between 0 and 1")]
     Weight {
         /// Number of the datum.
         datum: usize,
@@ -49,7 +46,6 @@ pub enum PerDatumError {
         weight: f64,
     },
     /// There are not as many weights as thresholds.
-    #[error("{weights} weights for {thresholds} thresholds")]
     Lengths {
         /// How many weights were given.
         weights: usize,
@@ -57,6 +53,27 @@ pub enum PerDatumError {
         thresholds: usize,
     },
 }
+
+impl fmt::Display for PerDatumError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Threshold { datum, threshold } => write!(
+                f,
+                "the threshold of datum {datum} is {threshold}: give one of 0 or more"
+            ),
+            Self::Weight { datum, weight } => write!(
+                f,
+                "the weight of datum {datum} is {weight}: give one between 0 and 1"
+            ),
+            Self::Lengths {
+                weights,
+                thresholds,
+            } => write!(f, "{weights} weights for {thresholds} thresholds"),
+        }
+    }
+}
+
+impl Error for PerDatumError {}
 
 impl<K: Kernel> PerDatum<K> {
     /// A threshold for each datum, in the order of the data; all weights are 1.

@@ -76,6 +76,23 @@ pub trait Constraints<E: Estimator>: Sync {
     }
 }
 
+/// A refit that all rules allow, if need be restored by the one that refuses it; else the rule that refused.
+pub(crate) fn allowed<E: Estimator>(
+    constraints: &impl Constraints<E>,
+    estimator: &E,
+    inliers: &[usize],
+    weights: Option<&[f64]>,
+    refit: E::Model,
+) -> Result<E::Model, usize> {
+    let Some(rule) = constraints.refusing_model(estimator, &refit) else {
+        return Ok(refit);
+    };
+    constraints
+        .restore(rule, estimator, inliers, weights, &refit)
+        .filter(|model| constraints.refusing_model(estimator, model).is_none())
+        .ok_or(rule)
+}
+
 /// No constraint at all.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Unconstrained;

@@ -6,6 +6,7 @@ mod reweighted;
 pub use near_best::NearBest;
 pub use reweighted::Reweighted;
 
+use crate::constraint::allowed;
 use crate::{Constraints, Counts, Estimator, Scorer, report::for_each_residual};
 
 /// A model with its score.
@@ -64,21 +65,16 @@ impl<E: Estimator, S: Scorer<E>, C: Constraints<E>> Refiner<'_, E, S, C> {
     fn allow(&mut self, refitted: Option<E::Model>, weighted: bool) -> Option<E::Model> {
         self.counts.refits += 1;
         let refitted = refitted?;
-        let Some(rule) = self.constraints.refusing_model(self.estimator, &refitted) else {
-            return Some(refitted);
-        };
         let weights = weighted.then_some(self.weights.as_slice());
-        let restored = self
-            .constraints
-            .restore(rule, self.estimator, self.inliers, weights, &refitted)
-            .filter(|model| {
-                let refusing = self.constraints.refusing_model(self.estimator, model);
-                refusing.is_none()
-            });
-        if restored.is_none() {
-            self.counts.rejection(rule).refits += 1;
-        }
-        restored
+        allowed(
+            self.constraints,
+            self.estimator,
+            self.inliers,
+            weights,
+            refitted,
+        )
+        .inspect_err(|&rule| self.counts.rejection(rule).refits += 1)
+        .ok()
     }
 
     /// The score of a model where it exceeds `bound`.

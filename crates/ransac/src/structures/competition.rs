@@ -1,4 +1,5 @@
 use super::claims::{Claim, NOBODY, Share, best_move, claim, share_out};
+use crate::constraint::allowed;
 use crate::{
     Constraints, Covariance, Estimator, Ransac, ResidualStatistics, Scorer, noise::uncertainty,
     report::residual_statistics,
@@ -239,13 +240,10 @@ impl<E: Estimator, S: Scorer<E>, C: Constraints<E>> Contest<'_, E, S, C> {
                 continue;
             }
             let refitted = self.estimator.refit(&data, &self.models[model]);
-            let allowed = |m: &E::Model| {
-                let refusing = self.constraints.refusing_model(self.estimator, m);
-                refusing.is_none()
-            };
-            let Some(refitted) = refitted.filter(allowed) else {
-                continue;
-            };
+            let refitted = refitted.and_then(|refit| {
+                allowed(self.constraints, self.estimator, &data, None, refit).ok()
+            });
+            let Some(refitted) = refitted else { continue };
             let (before, least) = (self.worth(), self.least_rise());
             let new = claim(self.estimator, self.scorer, &refitted);
             let old = std::mem::replace(&mut self.claims[model], new);

@@ -46,7 +46,7 @@ pub(crate) struct EvaluateArguments {
     #[arg(short, long, value_name = "DIR")]
     out: PathBuf,
     /// A method; may be repeated, to set methods side by side. Default: that of the settings.
-    #[arg(long = "method", value_name = "NAME", value_parser = PossibleValuesParser::new([Method::Paper.name()]))]
+    #[arg(long = "method", value_name = "NAME", value_parser = PossibleValuesParser::new(Method::ALL.map(Method::name)))]
     methods: Vec<String>,
     /// Settings from a TOML file; what it leaves out keeps its default (see `pomona config`).
     #[arg(long, value_name = "FILE")]

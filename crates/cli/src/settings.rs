@@ -105,7 +105,7 @@ pub(crate) struct SettingsArguments {
     #[arg(long, value_name = "FILE")]
     config: Option<PathBuf>,
     /// The method.
-    #[arg(long, value_name = "NAME", value_parser = PossibleValuesParser::new([Method::Paper.name()]))]
+    #[arg(long, value_name = "NAME", value_parser = PossibleValuesParser::new(Method::ALL.map(Method::name)))]
     method: Option<String>,
     /// Any setting, such as `paper.shell_outer=2.5`; may be repeated.
     #[arg(long, value_name = "NAME=VALUE")]

@@ -1,3 +1,4 @@
+use crate::RobustConfig;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 use thiserror::Error;
@@ -10,13 +11,19 @@ pub enum Method {
     /// The published one: Gao et al. 2022.
     #[default]
     Paper,
+    /// Ours: a flattened body with priors, branches seen as strips with two edges, answers that know how sure they are.
+    Robust,
 }
 
 impl Method {
+    /// All of them, in the order in which they are listed to people.
+    pub const ALL: [Self; 2] = [Self::Robust, Self::Paper];
+
     /// Its name in `picks.json` and on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Self::Paper => "paper",
+            Self::Robust => "robust",
         }
     }
 }
@@ -32,6 +39,8 @@ pub struct Config {
     pub method: Method,
     /// Settings of the method `paper`.
     pub paper: PaperConfig,
+    /// Settings of the method `robust`.
+    pub robust: RobustConfig,
 }
 
 /// Settings of the method `paper`.
@@ -146,11 +155,12 @@ impl Config {
     ///
     /// [`ConfigError::Value`] for the first one that makes no sense.
     pub fn validate(&self) -> Result<(), ConfigError> {
-        self.paper.validate()
+        self.paper.validate()?;
+        self.robust.validate()
     }
 }
 
-fn require(
+pub(crate) fn require(
     ok: bool,
     name: &'static str,
     value: impl std::fmt::Display + Copy,

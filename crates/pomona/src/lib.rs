@@ -49,6 +49,7 @@ mod error;
 mod paper;
 mod picker;
 mod record;
+mod robust;
 mod seed;
 mod surroundings;
 
@@ -56,6 +57,7 @@ pub use config::{Config, ConfigError, Method, PaperConfig};
 pub use error::PickError;
 pub use picker::{Evidence, Outcome, Picker, RobotFromCamera};
 pub use record::{
-    AppleRecord, BoxRecord, BranchRecord, FrameRecord, Pick, Record, RobotRecord, SCHEMA, Status,
-    TimingRecord,
+    AppleRecord, BoxRecord, BranchRecord, CandidateRecord, FrameRecord, Pick, Record, RobotRecord,
+    SCHEMA, Status, TimingRecord,
 };
+pub use robust::{RobustConfig, SensorPreset};

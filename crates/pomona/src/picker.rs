@@ -1,6 +1,7 @@
 use crate::{
-    AppleRecord, BoxRecord, BranchRecord, Config, FrameRecord, Pick, PickError, Record,
-    RobotRecord, SCHEMA, Status, TimingRecord, paper, seed::apple_rng, surroundings::window_of,
+    AppleRecord, BoxRecord, BranchRecord, Config, FrameRecord, Method, Pick, PickError, Record,
+    RobotRecord, SCHEMA, Status, TimingRecord, paper, robust, seed::apple_rng,
+    surroundings::window_of,
 };
 use nalgebra::{Point3, Vector3};
 use pomona_cloud::{DepthPoints, Frame, PixelBox, PixelWindow};
@@ -30,6 +31,13 @@ pub struct Outcome {
     pub record: Record,
     /// The evidence of each pick, in the same order.
     pub evidence: Vec<Evidence>,
+}
+
+/// Memory that serves one apple after another.
+#[derive(Default)]
+struct Buffers {
+    points: DepthPoints,
+    scratch: robust::Scratch,
 }
 
 /// Picks directions by one checked configuration.
@@ -87,8 +95,8 @@ impl Picker {
         let picked: Result<Vec<(Pick, Evidence)>, PickError> = boxes
             .par_iter()
             .enumerate()
-            .map_init(DepthPoints::new, |points, (id, pixel_box)| {
-                self.pick_apple(frame, id, pixel_box, seed, robot_from_camera, points)
+            .map_init(Buffers::default, |buffers, (id, pixel_box)| {
+                self.pick_apple(frame, id, pixel_box, seed, robot_from_camera, buffers)
             })
             .collect();
         let (picks, evidence) = picked?.into_iter().unzip();
@@ -112,7 +120,7 @@ impl Picker {
         pixel_box: &PixelBox,
         seed: u64,
         robot_from_camera: Option<&RobotFromCamera>,
-        points: &mut DepthPoints,
+        buffers: &mut Buffers,
     ) -> Result<(Pick, Evidence), PickError> {
         let start = Instant::now();
         let mut pick = Pick {
@@ -123,11 +131,24 @@ impl Picker {
             branch: None,
             foot: None,
             direction: None,
+            direction_sd: None,
+            confidence: None,
+            candidates: Vec::new(),
             robot: None,
             timing_ms: TimingRecord::default(),
         };
         let mut evidence = Evidence::default();
-        let status = self.follow_paper(frame, seed, points, &mut pick, &mut evidence)?;
+        let status = match self.config.method {
+            Method::Paper => {
+                self.follow_paper(frame, seed, &mut buffers.points, &mut pick, &mut evidence)?
+            }
+            Method::Robust => {
+                let mut rng = apple_rng(seed, &frame.id, pick.id);
+                let scratch = &mut buffers.scratch;
+                let config = &self.config.robust;
+                robust::pick_apple(frame, config, &mut rng, scratch, &mut pick, &mut evidence)
+            }
+        };
         pick.status = status;
         if let (Some(transform), Some(apple), Some(direction)) =
             (robot_from_camera, &pick.apple, pick.direction)
@@ -171,6 +192,10 @@ impl Picker {
             radius: apple.radius,
             inliers: sphere.inliers.len(),
             rms: sphere.residuals.rms,
+            center_covariance: None,
+            radius_sd: None,
+            visible_share: None,
+            agreement: None,
         });
 
         let start = Instant::now();

@@ -45,6 +45,12 @@ pub enum Status {
     ImplausibleRadius,
     /// No line at an allowed distance has enough support.
     NoBranch,
+    /// Several branches in different directions are as likely as each other.
+    AmbiguousBranch,
+    /// What is most like a branch has the width and the ends of leaves.
+    LeafLike,
+    /// Things in front hide too much of the apple or of what may be its branch.
+    Occluded,
 }
 
 impl Status {
@@ -57,6 +63,9 @@ impl Status {
             Self::NoSphere => "no_sphere",
             Self::ImplausibleRadius => "implausible_radius",
             Self::NoBranch => "no_branch",
+            Self::AmbiguousBranch => "ambiguous_branch",
+            Self::LeafLike => "leaf_like",
+            Self::Occluded => "occluded",
         }
     }
 }
@@ -83,6 +92,15 @@ pub struct Pick {
     /// Unit vector from the centre to the foot: the direction of approach.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub direction: Option<[f64; 3]>,
+    /// Standard deviation of the direction as an angle, radians.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub direction_sd: Option<f64>,
+    /// Probability that the direction is at most 20 degrees off.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub confidence: Option<f64>,
+    /// Branches that were weighed against each other, the best first.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub candidates: Vec<CandidateRecord>,
     /// The same in the robot's frame, where a transform was given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub robot: Option<RobotRecord>,
@@ -139,6 +157,18 @@ pub struct AppleRecord {
     pub inliers: usize,
     /// Root mean square of their distances from it.
     pub rms: f64,
+    /// Covariance of the centre, square metres.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub center_covariance: Option<[[f64; 3]; 3]>,
+    /// Standard deviation of the radius.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub radius_sd: Option<f64>,
+    /// Share of its outline's area on which its surface shows.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub visible_share: Option<f64>,
+    /// How well the body agrees with points, outline and box; 1 is perfect.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub agreement: Option<f64>,
 }
 
 /// A fitted branch.
@@ -152,6 +182,31 @@ pub struct BranchRecord {
     pub inliers: usize,
     /// Root mean square of their distances from it.
     pub rms: f64,
+}
+
+/// A branch that was weighed against others. Metres; lengths are measured along the branch.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CandidateRecord {
+    /// Point of its axis nearest to the apple's centre.
+    pub foot: [f64; 3],
+    /// Unit tangent of its axis there.
+    pub tangent: [f64; 3],
+    /// Radius of the branch.
+    pub radius: f64,
+    /// Distance of the foot from the centre.
+    pub distance: f64,
+    /// What it is ranked by; larger is better.
+    pub score: f64,
+    /// Length that shows with the branch's own width.
+    pub shown: f64,
+    /// Of that, what lies on the side of the foot that shows less.
+    pub shown_lesser_side: f64,
+    /// Length at which something else of its depth shows.
+    pub odd: f64,
+    /// Length at which the camera looks past or through it.
+    pub empty: f64,
+    /// Length that something nearer hides.
+    pub hidden: f64,
 }
 
 /// An answer in the robot's frame, with the orientation of a tool that approaches along its +x axis.

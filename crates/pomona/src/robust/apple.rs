@@ -1,0 +1,233 @@
+//! One apple: from the readings of its box to its body.
+
+use super::blocks::{Area, Blocks};
+use super::body::{Body, BodyFit, BodyPrior, Course, Sightings, fit_body};
+use super::contour::{agreement, grazing_rays};
+use super::patch::{Optics, Patch};
+use super::sensor::Noise;
+use super::sphere::{BoxRays, candidates, support};
+use crate::{BoxRecord, RobustConfig, Status};
+use nalgebra::{Point3, Unit, Vector3};
+use pomona_cloud::PixelWindow;
+use pomona_geometry::Sphere;
+use rand_chacha::ChaCha8Rng;
+
+/// Weight of the outline against the points where bodies compete.
+const OUTLINE_WEIGHT: f64 = 0.3;
+
+/// Standard deviation of an apple about a sphere, metres: what a sphere leaves to its flattening.
+const ROUND_SD_M: f64 = 0.0015;
+
+/// Within how much of a sphere a block of readings supports it, metres, beside its noise.
+const ROUND_SUPPORT_M: f64 = 0.0008;
+
+/// Fewest blocks of readings that make an apple.
+const LEAST_BLOCKS: usize = 8;
+
+/// Least jump of depth between neighbours that parts two things, metres.
+const LEAST_JUMP_M: f64 = 0.008;
+
+/// A fitted apple, and how well it was seen.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Found {
+    pub(crate) fit: BodyFit,
+    /// Share of its outline's area on which its surface shows.
+    pub(crate) visible_share: f64,
+    /// How well the body agrees with points, outline and box; 1 is perfect.
+    pub(crate) agreement: f64,
+}
+
+/// Buffers that serve one apple after another.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct AppleBuffers {
+    pub(crate) patch: Patch,
+    blocks: Blocks,
+    points: Vec<(Point3<f64>, f64)>,
+    rays: Vec<Unit<Vector3<f64>>>,
+}
+
+/// Pixels by which the patch of an apple is wider than its box: room for outlines that the box cuts.
+pub(crate) const MARGIN_PX: usize = 8;
+
+/// What an apple is fitted with.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct AppleSearch<'a> {
+    pub(crate) config: &'a RobustConfig,
+    pub(crate) optics: &'a Optics<'a>,
+    pub(crate) noise: Noise,
+    pub(crate) bounds: &'a BoxRecord,
+    /// The pixels of the box.
+    pub(crate) window: PixelWindow,
+}
+
+impl AppleSearch<'_> {
+    /// Fits the apple of the box; `buffers.patch` holds the box and its margin.
+    pub(crate) fn fit(
+        &self,
+        rng: &mut ChaCha8Rng,
+        buffers: &mut AppleBuffers,
+    ) -> Result<Found, Status> {
+        let (config, noise) = (self.config, self.noise);
+        let window = self.window;
+        let side = (window.width().max(window.height()) / config.blocks).max(1);
+        let readings = self.gather(side, buffers);
+        if readings == 0 {
+            return Err(Status::NoDepth);
+        }
+        if readings < config.min_readings || buffers.blocks.len() < LEAST_BLOCKS {
+            return Err(Status::TooFewPoints);
+        }
+        let bounds = BoxRays::new(self.bounds, self.optics).ok_or(Status::NoSphere)?;
+        let front = buffers
+            .blocks
+            .z
+            .iter()
+            .fold(f32::INFINITY, |a, &b| a.min(b));
+        let sigma = noise.sigma(f64::from(front)) * self.shared(1.0 / side as f64);
+        let threshold = 2.5 * sigma.hypot(ROUND_SUPPORT_M);
+        let spheres = candidates(&buffers.blocks, &bounds, config, threshold, rng);
+        let (agreement, sphere) = self
+            .best_sphere(&spheres, &bounds, threshold, buffers)
+            .ok_or(Status::NoSphere)?;
+        let fit = self.flattened(sphere, buffers).ok_or(Status::NoSphere)?;
+        let radius = fit.body.radius;
+        if radius < 0.9 * config.radius_min_m || radius > 1.1 * config.radius_max_m {
+            return Err(Status::ImplausibleRadius);
+        }
+        let outline = (radius / self.pixel(&fit.body)).powi(2) * std::f64::consts::PI;
+        Ok(Found {
+            fit,
+            visible_share: (fit.weight * (side * side) as f64 / outline).min(1.0),
+            agreement,
+        })
+    }
+
+    /// Fills in the blocks and their points; returns the number of readings.
+    fn gather(&self, side: usize, buffers: &mut AppleBuffers) -> usize {
+        let (patch, blocks, window) = (&buffers.patch, &mut buffers.blocks, self.window);
+        let (x0, y0) = (window.x0 - patch.origin.0, window.y0 - patch.origin.1);
+        let area = Area {
+            x0,
+            y0,
+            x1: x0 + window.width(),
+            y1: y0 + window.height(),
+        };
+        let jump = |z: f32| (6.0 * self.noise.sigma(f64::from(z))).max(LEAST_JUMP_M) as f32;
+        let readings = blocks.fill(patch, area, side, jump);
+        let points =
+            (0..blocks.len()).map(|i| (blocks.get(i), self.shared(f64::from(blocks.share[i]))));
+        buffers.points.clear();
+        buffers.points.extend(points);
+        readings
+    }
+
+    /// The noise of an average as a share of that of one reading, where neighbours share it.
+    fn shared(&self, share: f64) -> f64 {
+        (share * self.noise.correlation_px).min(1.0)
+    }
+
+    /// Metres of a pixel at the body's depth.
+    fn pixel(&self, body: &Body) -> f64 {
+        self.optics.pixel_m(body.center.z)
+    }
+
+    fn prior(&self) -> BodyPrior {
+        BodyPrior {
+            radius: (self.config.radius_mean_m, self.config.radius_sd_m),
+            flattening: (self.config.flattening_mean, self.config.flattening_sd),
+            axis: up(),
+            axis_sd: self.config.stem_sd_rad,
+            shape_sd: self.config.shape_sd_m,
+        }
+    }
+
+    /// Looks for the outline about `body`, and fits to it and to the points.
+    fn refit(
+        &self,
+        body: Body,
+        prior: &BodyPrior,
+        course: &Course<'_>,
+        buffers: &mut AppleBuffers,
+    ) -> Option<BodyFit> {
+        let sigma = self.noise.sigma(body.center.z);
+        grazing_rays(&buffers.patch, self.optics, &body, sigma, &mut buffers.rays);
+        let sightings = Sightings {
+            points: &buffers.points,
+            rays: &buffers.rays,
+            ray_sd: self.config.contour_sd_px * self.pixel(&body),
+            noise: self.noise,
+        };
+        fit_body(&sightings, body, prior, course)
+    }
+
+    /// Of the spheres, each refined a little, the one that agrees best with points, outline and box.
+    fn best_sphere(
+        &self,
+        spheres: &[Sphere],
+        bounds: &BoxRays,
+        threshold: f64,
+        buffers: &mut AppleBuffers,
+    ) -> Option<(f64, Body)> {
+        let config = self.config;
+        let prior = BodyPrior {
+            shape_sd: ROUND_SD_M,
+            ..self.prior()
+        };
+        let course = |cuts| Course {
+            cuts,
+            keep_shape: true,
+            settled: false,
+        };
+        let mut best: Option<(f64, Body)> = None;
+        for sphere in spheres {
+            let body = Body::round(sphere, up());
+            let refined = self
+                .refit(body, &prior, &course(&[5.0, 3.5]), buffers)
+                .and_then(|first| self.refit(first.body, &prior, &course(&[3.0, 3.0]), buffers));
+            let Some(body) = refined.map(|fit| fit.body) else {
+                continue;
+            };
+            if !(config.radius_min_m..=config.radius_max_m).contains(&body.radius) {
+                continue;
+            }
+            let outline = agreement(&buffers.rays, &body, 2.5 * self.pixel(&body));
+            let score = support(&buffers.blocks, &body.sphere(), threshold)
+                - config.box_weight * bounds.disagreement(&body.sphere())
+                + OUTLINE_WEIGHT * outline;
+            if best.is_none_or(|(other, _)| score > other) {
+                best = Some((score, body));
+            }
+        }
+        best
+    }
+
+    /// The flattened body from a sphere.
+    fn flattened(&self, sphere: Body, buffers: &mut AppleBuffers) -> Option<BodyFit> {
+        let flattening = self.config.flattening_mean;
+        let start = Body {
+            radius: sphere.radius * (1.0 + 0.3 * flattening),
+            flattening,
+            // Leant a little towards the camera: straight up, the fit would not know which way to turn it.
+            axis: Unit::new_normalize(Vector3::new(0.0, -1.0, -0.2)),
+            ..sphere
+        };
+        let prior = self.prior();
+        let course = |cuts, settled| Course {
+            cuts,
+            keep_shape: false,
+            settled,
+        };
+        let first = self.refit(
+            start,
+            &prior,
+            &course(&[5.0, 4.0, 3.5, 3.0], false),
+            buffers,
+        )?;
+        self.refit(first.body, &prior, &course(&[3.0; 4], true), buffers)
+    }
+}
+
+/// Upwards in the image: where stems point by and large.
+fn up() -> Unit<Vector3<f64>> {
+    -Vector3::y_axis()
+}

@@ -1,0 +1,93 @@
+//! The surroundings of an apple: a patch of depth in which apples are marked.
+
+use super::body::Body;
+use super::patch::{Optics, Patch};
+use super::sensor::Noise;
+use crate::surroundings::window_of;
+use pomona_cloud::{DepthImage, PixelWindow};
+use pomona_geometry::Sphere;
+
+/// Depth about an apple, and what each pixel shows.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Shell {
+    pub(crate) patch: Patch,
+    pub(crate) seen: Vec<u8>,
+}
+
+pub(crate) const NOTHING: u8 = 0;
+pub(crate) const THING: u8 = 1;
+pub(crate) const APPLE: u8 = 2;
+
+impl Shell {
+    /// Fills in the surroundings of `own` up to `reach` metres from its centre.
+    pub(crate) fn fill(
+        &mut self,
+        depth: &DepthImage,
+        optics: &Optics<'_>,
+        own: &Body,
+        reach: f64,
+        noise: Noise,
+    ) {
+        let (w, h) = (depth.width, depth.height);
+        let around = Sphere {
+            center: own.center,
+            radius: reach,
+        };
+        self.patch
+            .fill(depth, optics, window_of(&around, optics.camera, w, h));
+        let (near, far) = (own.center.z - reach, own.center.z + reach);
+        self.seen.clear();
+        self.seen.extend(self.patch.z.iter().map(|&z| {
+            let z = f64::from(z);
+            if z > near && z < far { THING } else { NOTHING }
+        }));
+        self.mark(optics, own, w, h, noise);
+    }
+
+    /// Indices in the whole image of the pixels that show `what`.
+    pub(crate) fn pixels_of(&self, what: u8) -> Vec<u32> {
+        let of = self.seen.iter().enumerate().filter(|(_, s)| **s == what);
+        of.map(|(i, _)| self.patch.image_index(i)).collect()
+    }
+
+    fn mark(
+        &mut self,
+        optics: &Optics<'_>,
+        body: &Body,
+        width: usize,
+        height: usize,
+        noise: Noise,
+    ) {
+        let sd = noise.sigma(body.center.z);
+        let band = 0.0015 + 2.5 * sd;
+        let around = Sphere {
+            center: body.center,
+            radius: body.radius + band,
+        };
+        let patch = &self.patch;
+        let (x0, y0) = patch.origin;
+        let whole = PixelWindow {
+            x0,
+            y0,
+            x1: x0 + patch.width,
+            y1: y0 + patch.height,
+        };
+        let window = window_of(&around, optics.camera, width, height).intersection(whole);
+        for v in window.y0..window.y1 {
+            for u in window.x0..window.x1 {
+                let i = (v - y0) * patch.width + (u - x0);
+                if self.seen[i] != THING {
+                    continue;
+                }
+                let p = patch.point_at(u - x0, v - y0, patch.z[i]);
+                // Noise lies along the ray: where the surface is seen at a slant it counts for less.
+                let d = p - body.center;
+                let slant = (d.dot(&p.coords) / (d.norm() * p.coords.norm()).max(1e-9)).abs();
+                let own_band = 0.0015 + 2.5 * sd * slant.max(0.25);
+                if body.signed_distance(&p) < own_band {
+                    self.seen[i] = APPLE;
+                }
+            }
+        }
+    }
+}

@@ -52,6 +52,7 @@
 //! Shah 2013, Lange, Little and Taylor 1989.
 
 mod error;
+mod file;
 mod options;
 mod points;
 mod poses;
@@ -60,6 +61,7 @@ mod robust;
 mod samples;
 
 pub use error::{CalibrateError, SampleFileError};
+pub use file::{FrameIds, SAMPLES_SCHEMA, SampleSet, Samples};
 pub use options::Options;
 pub use points::{PointCalibration, calibrate_points};
 pub use poses::{

@@ -56,6 +56,33 @@ pub enum TransformError {
     },
 }
 
+/// Why numbers are no covariance of a transform.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum CovarianceError {
+    /// A number is not finite.
+    #[error(
+        "the covariance holds a number that is not finite; repeat the calibration, or leave the covariance out"
+    )]
+    NotFinite,
+    /// The matrix is not symmetric.
+    #[error(
+        "the covariance is {asymmetry:.2e} away from symmetric; copy all digits, or leave the covariance out"
+    )]
+    NotSymmetric {
+        /// Largest difference between an entry and its mirror image.
+        asymmetry: f64,
+    },
+    /// Some combination of the errors would have a negative variance.
+    #[error(
+        "the covariance has the negative variance {variance:.2e}; copy all digits in rows, or leave the covariance out"
+    )]
+    NegativeVariance {
+        /// The variance, or the least eigenvalue of the correlations.
+        variance: f64,
+    },
+}
+
 /// Why a transform's file could not be read or written.
 ///
 /// Every message names the file, the place in it, and what to do about it.
@@ -148,6 +175,14 @@ pub enum TransformFileError {
         field: &'static str,
         /// Its length, taken as metres.
         length_m: f64,
+    },
+    /// The numbers are no covariance.
+    #[error("{}: {source}", .path.display())]
+    Covariance {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with them.
+        source: CovarianceError,
     },
     /// The numbers are no rigid transform.
     #[error("{}: {source}", .path.display())]

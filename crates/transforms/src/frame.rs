@@ -31,3 +31,28 @@ pub enum RobotFrame {}
 impl FrameTag for RobotFrame {
     const NAME: &'static str = "robot";
 }
+
+/// The robot's flange: the plate at the end of the arm, whose pose the robot's program tells.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FlangeFrame {}
+
+impl FrameTag for FlangeFrame {
+    const NAME: &'static str = "flange";
+}
+
+/// The tool's frame, its origin at the tool centre point (TCP): the place that is brought to the
+/// fruit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ToolFrame {}
+
+impl FrameTag for ToolFrame {
+    const NAME: &'static str = "tool";
+}
+
+/// The frame of a calibration target: a marker or a board, as its detector defines it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TargetFrame {}
+
+impl FrameTag for TargetFrame {
+    const NAME: &'static str = "target";
+}

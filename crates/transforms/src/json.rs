@@ -1,7 +1,10 @@
 //! The form of a transform's file, and what may be wrong in it.
 
-use crate::{FrameTag, NamedTransform, Transform, TransformError, TransformFileError};
-use nalgebra::{Matrix4, Vector3};
+use crate::{
+    CovarianceError, FrameTag, NamedTransform, Transform, TransformError, TransformFileError,
+    uncertain,
+};
+use nalgebra::{Matrix4, Matrix6, Vector3};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::path::Path;
@@ -13,7 +16,7 @@ pub const SCHEMA: &str = "pomona.transform/1";
 /// spans, and less than the same in millimetres, taken for metres.
 pub const MAX_TRANSLATION_M: f64 = 100.0;
 
-const REMEDY: &str = "give schema, to, from, and translation_m [x, y, z] with quaternion_xyzw [x, y, z, w], or in their place matrix as four rows of four; nothing else";
+const REMEDY: &str = "give schema, to, from, and translation_m [x, y, z] with quaternion_xyzw [x, y, z, w], or in their place matrix as four rows of four; and, if known, covariance (perturbation left, order rotation_translation, matrix as six rows of six); nothing else";
 const FINITE_REMEDY: &str = "give finite numbers: repeat the calibration, or copy its result again";
 
 #[derive(Serialize, Deserialize)]
@@ -28,6 +31,31 @@ struct Document {
     quaternion_xyzw: Option<[f64; 4]>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     matrix: Option<[[f64; 4]; 4]>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    covariance: Option<CovarianceDocument>,
+}
+
+/// The covariance, with the convention beside the numbers: there are four in use.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct CovarianceDocument {
+    perturbation: Perturbation,
+    order: Order,
+    matrix: [[f64; 6]; 6],
+}
+
+/// T = Exp(ξ) T̂.
+#[derive(Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum Perturbation {
+    Left,
+}
+
+/// ξ = (ω, υ), in radians and metres.
+#[derive(Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum Order {
+    RotationTranslation,
 }
 
 pub(crate) fn parse<To: FrameTag, From: FrameTag>(
@@ -45,7 +73,13 @@ pub(crate) fn parse<To: FrameTag, From: FrameTag>(
     // From the text again, for the line and the column.
     let document: Document = serde_json::from_slice(bytes).map_err(syntax)?;
     let (transform, field) = document.transform()?;
-    let named = NamedTransform::new(transform, document.to, document.from);
+    let covariance = document
+        .covariance
+        .map(|c| Matrix6::from_fn(|row, column| c.matrix[row][column]));
+    let named = NamedTransform {
+        covariance,
+        ..NamedTransform::new(transform, document.to, document.from)
+    };
     check(&named, field)?;
     Ok(named)
 }
@@ -61,6 +95,11 @@ pub(crate) fn format<To: FrameTag, From: FrameTag>(
         translation_m: Some(named.transform.translation_m().into()),
         quaternion_xyzw: Some(named.transform.quaternion_xyzw()),
         matrix: None,
+        covariance: named.covariance.map(|c| CovarianceDocument {
+            perturbation: Perturbation::Left,
+            order: Order::RotationTranslation,
+            matrix: std::array::from_fn(|row| std::array::from_fn(|column| c[(row, column)])),
+        }),
     };
     // A struct of numbers and strings always serialises.
     Ok(serde_json::to_string_pretty(&document).unwrap_or_default() + "\n")
@@ -75,6 +114,9 @@ fn check<To: FrameTag, From: FrameTag>(
         if id.trim().is_empty() {
             return Err(Fault::NoFrameId { field });
         }
+    }
+    if let Some(covariance) = &named.covariance {
+        uncertain::check(covariance).map_err(Fault::Covariance)?;
     }
     let length_m = length(&named.transform.translation_m());
     if !(length_m <= MAX_TRANSLATION_M) {
@@ -148,6 +190,7 @@ pub(crate) enum Fault {
         field: &'static str,
         length_m: f64,
     },
+    Covariance(CovarianceError),
     Numbers(TransformError),
 }
 
@@ -200,6 +243,7 @@ impl Fault {
                 field,
                 length_m,
             },
+            Self::Covariance(source) => TransformFileError::Covariance { path, source },
             Self::Numbers(source) => TransformFileError::Numbers { path, source },
         }
     }

@@ -81,13 +81,16 @@ mod position;
 mod quaternion;
 mod tool;
 mod transform;
+pub mod twist;
+mod uncertain;
 
 pub use direction::Direction;
-pub use error::{TransformError, TransformFileError};
+pub use error::{CovarianceError, TransformError, TransformFileError};
 pub use euler::EulerZyx;
-pub use frame::{CameraFrame, FrameTag, RobotFrame};
+pub use frame::{CameraFrame, FlangeFrame, FrameTag, RobotFrame, TargetFrame, ToolFrame};
 pub use json::{MAX_TRANSLATION_M, SCHEMA};
 pub use named::NamedTransform;
 pub use position::Position;
 pub use tool::{SINGULAR_ANGLE_RAD, ToolOrientation, paper_as_printed_euler};
 pub use transform::Transform;
+pub use uncertain::{UncertainDirection, UncertainPosition, UncertainTransform};

@@ -1,4 +1,5 @@
-use crate::{FrameTag, Transform, TransformFileError, file, json};
+use crate::{FrameTag, Transform, TransformFileError, UncertainTransform, file, json};
+use nalgebra::Matrix6;
 use std::path::Path;
 
 /// A transform together with the ids that its frames have at run time.
@@ -17,7 +18,9 @@ use std::path::Path;
 /// ```
 ///
 /// In place of the last two it may give `"matrix": [[…], […], […], [0, 0, 0, 1]]`, the
-/// homogeneous matrix row by row, its translation in metres.
+/// homogeneous matrix row by row, its translation in metres. It may end with the covariance,
+/// `"covariance": {"perturbation": "left", "order": "rotation_translation", "matrix": […]}`, six
+/// rows of six, with the convention of [`UncertainTransform`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct NamedTransform<To: FrameTag, From: FrameTag> {
     /// The transform.
@@ -26,6 +29,9 @@ pub struct NamedTransform<To: FrameTag, From: FrameTag> {
     pub to: String,
     /// Id of the frame it starts in.
     pub from: String,
+    /// Covariance of its error, where it is known, as [`UncertainTransform`] has it: of a left
+    /// perturbation, rotation first; rad², rad·m, m².
+    pub covariance: Option<Matrix6<f64>>,
 }
 
 impl<To: FrameTag, From: FrameTag> NamedTransform<To, From> {
@@ -39,6 +45,7 @@ impl<To: FrameTag, From: FrameTag> NamedTransform<To, From> {
             transform,
             to: to.into(),
             from: from.into(),
+            covariance: None,
         }
     }
 
@@ -49,6 +56,17 @@ impl<To: FrameTag, From: FrameTag> NamedTransform<To, From> {
             transform: self.transform.inverse(),
             to: self.from.clone(),
             from: self.to.clone(),
+            covariance: self
+                .covariance
+                .map(|_| self.uncertain().inverse().covariance),
+        }
+    }
+
+    /// The transform with its covariance, which is 0 where none is known.
+    pub fn uncertain(&self) -> UncertainTransform<To, From> {
+        UncertainTransform {
+            transform: self.transform,
+            covariance: self.covariance.unwrap_or_default(),
         }
     }
 
@@ -64,7 +82,7 @@ impl<To: FrameTag, From: FrameTag> NamedTransform<To, From> {
     /// [`NoFrameId`](TransformFileError::NoFrameId),
     /// [`MissingPart`](TransformFileError::MissingPart),
     /// [`TwoForms`](TransformFileError::TwoForms), [`TooFar`](TransformFileError::TooFar),
-    /// [`Numbers`](TransformFileError::Numbers).
+    /// [`Covariance`](TransformFileError::Covariance), [`Numbers`](TransformFileError::Numbers).
     pub fn read(path: impl AsRef<Path>) -> Result<Self, TransformFileError> {
         let path = path.as_ref();
         let bytes = file::read_bytes(path)?;

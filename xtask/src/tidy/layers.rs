@@ -8,7 +8,7 @@ use std::fs;
 const LAYERS: &[&[&str]] = &[
     &["pomona-ransac", "pomona-geometry"],
     &["pomona-cloud", "pomona-fit", "pomona-transforms"],
-    &["pomona-approach", "pomona-detect"],
+    &["pomona-approach", "pomona-calibrate", "pomona-detect"],
     &["pomona", "pomona-scenes", "pomona-view"],
     &["pomona-evaluate"],
     &["pomona-cli"],

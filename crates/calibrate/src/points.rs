@@ -1,0 +1,311 @@
+//! Calibration from point pairs.
+
+mod diagnosis;
+mod estimator;
+mod similarity;
+
+use crate::quality::{
+    LeaveOneOut, LeftOut, Quality, SampleQuality, fruit, rejection, shift_at, spread,
+};
+use crate::robust::{StudentT, median};
+use crate::samples::{check_point_lengths, check_points};
+use crate::{CalibrateError, Options, PointSample};
+use estimator::PointPairs;
+use nalgebra::{Matrix3, Matrix3x6, Matrix6};
+use pomona_ransac::{FixedCount, LeastSquares, Msac, Ransac};
+use pomona_transforms::{CameraFrame, Position, RobotFrame, Transform, UncertainTransform, twist};
+use rand_core::Rng;
+use similarity::Similarity;
+
+/// Three points determine the unknowns; a fourth tells whether one of them is wrong.
+const LEAST_POINTS: usize = 4;
+
+/// Fewer samples than this are no safeguard against a wrong one.
+const SAFE_POINTS: usize = 6;
+
+/// The least noise that is believed, m.
+const FLOOR_M: f64 = 1e-6;
+
+const MAX_ROUNDS: usize = 50;
+
+type Loss = StudentT<3>;
+
+/// Where a camera is that stands still, from places that it saw and the robot touched.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct PointCalibration {
+    /// The answer, `robot_from_camera`, with its covariance.
+    pub camera: UncertainTransform<RobotFrame, CameraFrame>,
+    /// Distances in the robot's frame over those in the camera's, of the samples that are believed: 1 but for errors.
+    pub scale: f64,
+    /// Residuals, rejections and leave-one-out errors.
+    pub quality: Quality,
+}
+
+/// `robot_from_camera` from point pairs.
+///
+/// Kabsch's fit proposes models from samples of three in a robust search; the outcome is refined with a robust
+/// loss over all that belong to it. A reflection, points on a line, and a scale that is not 1 are
+/// recognised and named. The answer depends on the samples and on numbers taken from `rng`.
+///
+/// # Errors
+///
+/// [`CalibrateError`]: too few samples, numbers that cannot be, [`Scale`](CalibrateError::Scale) (more than
+/// 2 % from 1), [`Mirrored`](CalibrateError::Mirrored), [`Collinear`](CalibrateError::Collinear), no consensus.
+pub fn calibrate_points<R: Rng + ?Sized>(
+    samples: &[PointSample],
+    options: &Options,
+    rng: &mut R,
+) -> Result<PointCalibration, CalibrateError> {
+    options.check()?;
+    check_points(samples, LEAST_POINTS)?;
+    let pairs = PointPairs {
+        camera: samples.iter().map(|s| s.camera.point()).collect(),
+        robot: samples.iter().map(|s| s.robot.point()).collect(),
+        free_scale: false,
+    };
+    diagnosis::check_line(&pairs.robot, 0.0)?;
+    diagnosis::check_line(&pairs.camera, 0.0)?;
+    let found = search(&pairs, options.translation_tolerance_m, options, rng);
+    let agreeing = found.as_ref().map_or(0, |(_, inliers)| inliers.len());
+    let Some((model, inliers)) = found.filter(|_| agreeing >= needed(samples.len())) else {
+        if let Some(explained) = diagnosis::explain(&pairs, options, rng) {
+            return Err(explained);
+        }
+        check_point_lengths(samples)?;
+        return Err(CalibrateError::NoConsensus {
+            agreeing,
+            samples: samples.len(),
+            tolerance: format!("{:.1} mm", options.translation_tolerance_m * 1e3),
+        });
+    };
+    check_point_lengths(samples)?;
+    let fit = refine(&pairs, &inliers, &model).ok_or(CalibrateError::Undetermined)?;
+    let kept: Vec<usize> = fit.kept().collect();
+    let of_kept =
+        |points: &[nalgebra::Point3<f64>]| -> Vec<_> { kept.iter().map(|&i| points[i]).collect() };
+    diagnosis::check_line(&of_kept(&pairs.robot), fit.sigma_m)?;
+    let scale = scale(&pairs, &fit, &kept)?;
+
+    let transform =
+        Transform::from_isometry(&fit.model.isometry).map_err(|_| CalibrateError::Undetermined)?;
+    let camera = UncertainTransform::new(transform, fit.covariance)
+        .map_err(|_| CalibrateError::Undetermined)?;
+    let quality = quality(samples, &pairs, &fit, scale, options, &camera);
+    Ok(PointCalibration {
+        camera,
+        scale: scale.value,
+        quality,
+    })
+}
+
+/// How many samples must agree.
+fn needed(samples: usize) -> usize {
+    LEAST_POINTS.max(samples / 2 + 1)
+}
+
+fn search<R: Rng + ?Sized>(
+    pairs: &PointPairs,
+    tolerance_m: f64,
+    options: &Options,
+    rng: &mut R,
+) -> Option<(Similarity, Vec<usize>)> {
+    let engine = Ransac::new(Msac::within(tolerance_m))
+        .local_optimization(LeastSquares::default())
+        .stopping(FixedCount::new(u64::from(options.hypotheses)).max_draws(20_000));
+    let report = engine.run(pairs, rng).ok()?;
+    Some((report.model, report.inliers))
+}
+
+struct Fit {
+    model: Similarity,
+    /// Standard deviation of one component.
+    sigma_m: f64,
+    /// 0 for those that are rejected.
+    weights: Vec<f64>,
+    covariance: Matrix6<f64>,
+}
+
+impl Fit {
+    fn kept(&self) -> impl Iterator<Item = usize> + '_ {
+        (0..self.weights.len()).filter(|&i| self.weights[i] > 0.0)
+    }
+}
+
+/// Refines with the weights of a Student t, and decides anew which samples belong to the model.
+fn refine(pairs: &PointPairs, inliers: &[usize], start: &Similarity) -> Option<Fit> {
+    const MEDIAN_OF_3: f64 = 1.538_172;
+    let n = pairs.camera.len();
+    let residuals =
+        |model: &Similarity| -> Vec<f64> { (0..n).map(|i| pairs.residual(model, i)).collect() };
+    let mut model = *start;
+    let mut kept: Vec<usize> = inliers.to_vec();
+    let of_inliers = residuals(&model);
+    let middle = median(kept.iter().map(|&i| of_inliers[i]).collect());
+    let mut sigma_m = (middle / MEDIAN_OF_3).max(FLOOR_M);
+    for _ in 0..MAX_ROUNDS {
+        let r = residuals(&model);
+        let weights: Vec<f64> = kept
+            .iter()
+            .map(|&i| Loss::weight((r[i] / sigma_m).powi(2)))
+            .collect();
+        let next = pairs.fit_to(&kept, Some(&weights))?;
+        let r = residuals(&next);
+        let squares: f64 = kept
+            .iter()
+            .zip(&weights)
+            .map(|(&i, w)| w * r[i] * r[i])
+            .sum();
+        // Six unknowns are the price of two samples.
+        let freedom = 3.0 * (kept.len() as f64 - 2.0).max(1.0);
+        let next_sigma = (squares / freedom).sqrt().max(FLOOR_M);
+        let gate = Loss::gate().sqrt() * next_sigma;
+        let gated: Vec<usize> = (0..n).filter(|&i| r[i] <= gate).collect();
+        let gated = if gated.len() >= LEAST_POINTS {
+            gated
+        } else {
+            kept.clone()
+        };
+        let settled = gated == kept && (next_sigma / sigma_m).ln().abs() < 1e-9;
+        (model, sigma_m, kept) = (next, next_sigma, gated);
+        if settled {
+            break;
+        }
+    }
+    let r = residuals(&model);
+    let mut weights = vec![0.0; n];
+    let mut normal = Matrix6::zeros();
+    for &i in &kept {
+        weights[i] = Loss::weight((r[i] / sigma_m).powi(2));
+        let j = derivatives(&model.apply(&pairs.camera[i]).coords);
+        normal += j.transpose() * j;
+    }
+    let loss = Loss::efficiency_loss(kept.iter().map(|&i| (r[i] / sigma_m).powi(2)));
+    let inverse = normal.cholesky()?.inverse();
+    Some(Fit {
+        model,
+        sigma_m,
+        weights,
+        covariance: (inverse + inverse.transpose()) * (0.5 * loss * sigma_m * sigma_m),
+    })
+}
+
+/// Of a place by a left perturbation, rotation first: [−[p]× I].
+fn derivatives(place: &nalgebra::Vector3<f64>) -> Matrix3x6<f64> {
+    let mut j = Matrix3x6::zeros();
+    j.fixed_view_mut::<3, 3>(0, 0)
+        .copy_from(&-twist::skew(place));
+    j.fixed_view_mut::<3, 3>(0, 3)
+        .copy_from(&Matrix3::identity());
+    j
+}
+
+#[derive(Clone, Copy)]
+struct ScaleFound {
+    value: f64,
+    sigma: f64,
+}
+
+/// The scale of the samples that are believed; refused where it is far from 1 and the samples know it.
+fn scale(pairs: &PointPairs, fit: &Fit, kept: &[usize]) -> Result<ScaleFound, CalibrateError> {
+    let free = PointPairs {
+        free_scale: true,
+        ..pairs.clone()
+    };
+    let value = free
+        .fit_to(kept, None)
+        .ok_or(CalibrateError::Undetermined)?
+        .scale;
+    let n = kept.len() as f64;
+    let mean = kept
+        .iter()
+        .map(|&i| pairs.camera[i].coords)
+        .sum::<nalgebra::Vector3<f64>>()
+        / n;
+    let squares: f64 = kept
+        .iter()
+        .map(|&i| (pairs.camera[i].coords - mean).norm_squared())
+        .sum();
+    let sigma = fit.sigma_m / squares.sqrt();
+    let off = (value - 1.0).abs();
+    if off > diagnosis::SCALE_TOLERANCE && off > 4.0 * sigma {
+        return Err(diagnosis::wrong_scale(value));
+    }
+    Ok(ScaleFound { value, sigma })
+}
+
+fn quality(
+    samples: &[PointSample],
+    pairs: &PointPairs,
+    fit: &Fit,
+    scale: ScaleFound,
+    options: &Options,
+    camera: &UncertainTransform<RobotFrame, CameraFrame>,
+) -> Quality {
+    let rows: Vec<SampleQuality> = samples
+        .iter()
+        .enumerate()
+        .map(|(i, sample)| {
+            let place = pairs.residual(&fit.model, i);
+            let sigmas = place / fit.sigma_m;
+            let kept = fit.weights[i] > 0.0;
+            SampleQuality {
+                id: sample.id.clone(),
+                translation_m: place,
+                rotation_rad: None,
+                sigmas,
+                weight: fit.weights[i],
+                rejected: (!kept)
+                    .then(|| rejection(place, None, sigmas, options.translation_tolerance_m)),
+                left_out: kept.then(|| left_out(pairs, fit, i, options)).flatten(),
+            }
+        })
+        .collect();
+    let used = fit.kept().count();
+    let mut warnings = Vec::new();
+    if used < SAFE_POINTS {
+        warnings.push(format!(
+            "only {used} points are used: too few to be sure that none of them is wrong; take {SAFE_POINTS} or more"
+        ));
+    }
+    if samples.len() - used > samples.len() / 4 {
+        warnings.push(format!(
+            "{} of {} points are rejected: look for a common cause before trusting the rest",
+            samples.len() - used,
+            samples.len()
+        ));
+    }
+    if (scale.value - 1.0).abs() > 4.0 * scale.sigma.max(1e-9) && (scale.value - 1.0).abs() > 1e-3 {
+        warnings.push(format!(
+            "distances in the robot's frame are {:.2} % of the camera's: check the camera's depth scale and intrinsics",
+            scale.value * 100.0
+        ));
+    }
+    let at_fruit = camera.position(&Position::new(fruit(options.fruit_distance_m)).into());
+    Quality {
+        leave_one_out: LeaveOneOut::of(&rows),
+        samples: rows,
+        noise_translation_m: fit.sigma_m,
+        noise_rotation_rad: None,
+        fruit_distance_m: options.fruit_distance_m,
+        sigma_at_fruit_m: spread(&at_fruit.covariance_m2),
+        sigma_rotation_rad: spread(&camera.rotation_covariance_rad2()),
+        warnings,
+    }
+}
+
+/// The fit without sample `i`; `None` where the rest does not determine it.
+fn left_out(pairs: &PointPairs, fit: &Fit, i: usize, options: &Options) -> Option<LeftOut> {
+    let others: Vec<usize> = fit.kept().filter(|&k| k != i).collect();
+    let weights: Vec<f64> = others.iter().map(|&k| fit.weights[k]).collect();
+    let model = pairs.fit_to(&others, Some(&weights))?;
+    Some(LeftOut {
+        translation_m: pairs.residual(&model, i),
+        rotation_rad: None,
+        shift_at_fruit_m: shift_at(
+            &model.isometry,
+            &fit.model.isometry,
+            options.fruit_distance_m,
+        ),
+    })
+}

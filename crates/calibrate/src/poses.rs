@@ -1,0 +1,294 @@
+//! Calibration from pose pairs.
+
+mod daniilidis;
+mod estimator;
+mod motions;
+mod park;
+mod refine;
+mod shah;
+mod system;
+
+pub use estimator::PoseSolver;
+pub use motions::MotionSpread;
+
+use crate::quality::{LeaveOneOut, LeftOut, Quality, SampleQuality, rejection, shift_at, spread};
+use crate::{CalibrateError, Options, PoseSample};
+use estimator::PosePairs;
+use nalgebra::{Isometry3, Matrix6};
+use pomona_ransac::{FixedCount, LeastSquares, Msac, Ransac};
+use pomona_transforms::{
+    CameraFrame, FlangeFrame, FrameTag, Position, RobotFrame, TargetFrame, Transform,
+    UncertainTransform,
+};
+use rand_core::Rng;
+use refine::Fit;
+use system::{Model, Pair, Scale};
+
+/// Three poses determine the unknowns; a fourth tells whether one of them is wrong.
+pub(crate) const LEAST_POSES: usize = 4;
+
+/// Fewer samples than this are no safeguard against a wrong one.
+const SAFE_POSES: usize = 8;
+
+/// Where the camera is, from poses of a target; with `Carrier` what the camera is fixed to and `Other`
+/// what the target is.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct PoseCalibration<Carrier: FrameTag, Other: FrameTag> {
+    /// The answer, `carrier_from_camera`, with its covariance.
+    pub camera: UncertainTransform<Carrier, CameraFrame>,
+    /// What was found beside it, `other_from_target`, with its covariance.
+    pub target: UncertainTransform<Other, TargetFrame>,
+    /// What began the winning fit.
+    pub solver: PoseSolver,
+    /// How far the robot turned among the samples that are believed.
+    pub motions: MotionSpread,
+    /// Residuals, rejections and leave-one-out errors.
+    pub quality: Quality,
+}
+
+/// A camera that stands still, and a target on the flange: `robot_from_camera`, from
+/// A X = X B (X the camera's place, A the robot's motions and B those of the target).
+///
+/// Park's and Daniilidis's solvers each propose models from samples of three in a robust search; the better
+/// outcome is refined jointly with the target's place on SE(3) with a robust loss. The answer depends on
+/// the samples and on one number taken from `rng`.
+///
+/// # Errors
+///
+/// [`CalibrateError`]: too few samples, numbers that cannot be, motions that do not determine the
+/// answer, no consensus.
+pub fn calibrate_eye_to_hand<R: Rng + ?Sized>(
+    samples: &[PoseSample],
+    options: &Options,
+    rng: &mut R,
+) -> Result<PoseCalibration<RobotFrame, FlangeFrame>, CalibrateError> {
+    calibrate(
+        samples,
+        options,
+        &[PoseSolver::Park, PoseSolver::Daniilidis],
+        |s| s.robot_from_flange.isometry(),
+        rng,
+    )
+}
+
+/// A camera on the flange, and a target that stands still: `flange_from_camera`.
+///
+/// It is [`calibrate_eye_to_hand`] seen from the flange; all else is the same.
+///
+/// # Errors
+///
+/// As [`calibrate_eye_to_hand`].
+pub fn calibrate_eye_in_hand<R: Rng + ?Sized>(
+    samples: &[PoseSample],
+    options: &Options,
+    rng: &mut R,
+) -> Result<PoseCalibration<FlangeFrame, RobotFrame>, CalibrateError> {
+    calibrate(
+        samples,
+        options,
+        &[PoseSolver::Park, PoseSolver::Daniilidis],
+        |s| s.robot_from_flange.isometry().inverse(),
+        rng,
+    )
+}
+
+/// A camera that stands still, and a target on the flange, by A X = Z B: both unknowns at once from the
+/// poses themselves, by Shah's solver in the search and the same joint refinement.
+///
+/// # Errors
+///
+/// As [`calibrate_eye_to_hand`].
+pub fn calibrate_robot_world<R: Rng + ?Sized>(
+    samples: &[PoseSample],
+    options: &Options,
+    rng: &mut R,
+) -> Result<PoseCalibration<RobotFrame, FlangeFrame>, CalibrateError> {
+    calibrate(
+        samples,
+        options,
+        &[PoseSolver::Shah],
+        |s| s.robot_from_flange.isometry(),
+        rng,
+    )
+}
+
+/// A published solver alone on all samples alike, for a camera that stands still: no search, no refinement,
+/// nothing rejected. For comparisons; `None` where the samples do not determine an answer.
+pub fn solve_without_robustness(
+    samples: &[PoseSample],
+    solver: PoseSolver,
+) -> Option<Transform<RobotFrame, CameraFrame>> {
+    let pairs: Vec<Pair> = samples
+        .iter()
+        .map(|s| Pair {
+            carrier: s.robot_from_flange.isometry(),
+            seen: s.camera_from_target.isometry(),
+        })
+        .collect();
+    let model = solver.solve(&pairs)?;
+    Transform::from_isometry(&model.camera).ok()
+}
+
+fn calibrate<Carrier: FrameTag, Other: FrameTag, R: Rng + ?Sized>(
+    samples: &[PoseSample],
+    options: &Options,
+    solvers: &[PoseSolver],
+    carrier_from_other: impl Fn(&PoseSample) -> Isometry3<f64>,
+    rng: &mut R,
+) -> Result<PoseCalibration<Carrier, Other>, CalibrateError> {
+    options.check()?;
+    crate::samples::check_poses(samples, LEAST_POSES)?;
+    let pairs: Vec<Pair> = samples
+        .iter()
+        .map(|s| Pair {
+            carrier: carrier_from_other(s),
+            seen: s.camera_from_target.isometry(),
+        })
+        .collect();
+    motions::check(&pairs)?;
+    let tolerance = Scale {
+        rotation_rad: options.rotation_tolerance_rad,
+        translation_m: options.translation_tolerance_m,
+    };
+    let (solver, model, inliers) = search(&pairs, solvers, tolerance, options, rng)?;
+    let kept: Vec<Pair> = inliers.iter().map(|&i| pairs[i]).collect();
+    motions::check(&kept)?;
+    let fit = refine::robust(&pairs, &inliers, &model).ok_or(CalibrateError::Undetermined)?;
+    let kept: Vec<Pair> = fit.kept().map(|i| pairs[i]).collect();
+    let motions = motions::check(&kept)?;
+
+    let block = |at: usize| -> Matrix6<f64> { fit.covariance.fixed_view::<6, 6>(at, at).into() };
+    let camera = uncertain(&fit.model.camera, block(0))?;
+    let target = uncertain(&fit.model.target, block(6))?;
+    let quality = quality(samples, &pairs, &fit, options, &camera);
+    Ok(PoseCalibration {
+        camera,
+        target,
+        solver,
+        motions,
+        quality,
+    })
+}
+
+fn uncertain<To: FrameTag, From: FrameTag>(
+    isometry: &Isometry3<f64>,
+    covariance: Matrix6<f64>,
+) -> Result<UncertainTransform<To, From>, CalibrateError> {
+    let transform = Transform::from_isometry(isometry).map_err(|_| CalibrateError::Undetermined)?;
+    UncertainTransform::new(transform, covariance).map_err(|_| CalibrateError::Undetermined)
+}
+
+/// The consensus of most samples, over all solvers.
+fn search<R: Rng + ?Sized>(
+    pairs: &[Pair],
+    solvers: &[PoseSolver],
+    tolerance: Scale,
+    options: &Options,
+    rng: &mut R,
+) -> Result<(PoseSolver, Model, Vec<usize>), CalibrateError> {
+    let needed = LEAST_POSES.max(pairs.len() / 2 + 1);
+    let engine = Ransac::new(Msac::within(1.0))
+        .local_optimization(LeastSquares::default())
+        .stopping(FixedCount::new(u64::from(options.hypotheses)).max_draws(20_000));
+    let mut best: Option<(f64, PoseSolver, Model, Vec<usize>)> = None;
+    for &solver in solvers {
+        let estimator = PosePairs {
+            pairs,
+            solver,
+            tolerance,
+        };
+        // Without a model of one solver there may be one of the other.
+        let Ok(report) = engine.run(&estimator, rng) else {
+            continue;
+        };
+        if best.as_ref().is_none_or(|b| report.score > b.0) {
+            best = Some((report.score, solver, report.model, report.inliers));
+        }
+    }
+    let (_, solver, model, inliers) = best.ok_or(CalibrateError::Undetermined)?;
+    if inliers.len() < needed {
+        return Err(CalibrateError::NoConsensus {
+            agreeing: inliers.len(),
+            samples: pairs.len(),
+            tolerance: format!(
+                "{:.1} mm and {:.1} degrees",
+                tolerance.translation_m * 1e3,
+                tolerance.rotation_rad.to_degrees()
+            ),
+        });
+    }
+    Ok((solver, model, inliers))
+}
+
+fn quality<Carrier: FrameTag>(
+    samples: &[PoseSample],
+    pairs: &[Pair],
+    fit: &Fit,
+    options: &Options,
+    camera: &UncertainTransform<Carrier, CameraFrame>,
+) -> Quality {
+    let rows: Vec<SampleQuality> = (0..pairs.len())
+        .map(|i| {
+            let offset = fit.model.offset(&pairs[i]);
+            let (place, sigmas) = (offset.translation.norm(), fit.squared[i].sqrt());
+            let kept = fit.weights[i] > 0.0;
+            SampleQuality {
+                id: samples[i].id.clone(),
+                translation_m: place,
+                rotation_rad: Some(offset.rotation.norm()),
+                sigmas,
+                weight: fit.weights[i],
+                rejected: (!kept).then(|| {
+                    rejection(
+                        place,
+                        Some(offset.rotation),
+                        sigmas,
+                        options.translation_tolerance_m,
+                    )
+                }),
+                left_out: kept.then(|| left_out(pairs, fit, i, options)).flatten(),
+            }
+        })
+        .collect();
+    let used = fit.kept().count();
+    let mut warnings = Vec::new();
+    if used < SAFE_POSES {
+        warnings.push(format!(
+            "only {used} poses are used: too few to be sure that none of them is wrong; take {SAFE_POSES} or more"
+        ));
+    }
+    if samples.len() - used > samples.len() / 4 {
+        warnings.push(format!(
+            "{} of {} poses are rejected: look for a common cause before trusting the rest",
+            samples.len() - used,
+            samples.len()
+        ));
+    }
+    let at_fruit =
+        camera.position(&Position::new(crate::quality::fruit(options.fruit_distance_m)).into());
+    let leave_one_out = LeaveOneOut::of(&rows);
+    Quality {
+        leave_one_out,
+        samples: rows,
+        noise_translation_m: fit.noise.translation_m,
+        noise_rotation_rad: Some(fit.noise.rotation_rad),
+        fruit_distance_m: options.fruit_distance_m,
+        sigma_at_fruit_m: spread(&at_fruit.covariance_m2),
+        sigma_rotation_rad: spread(&camera.rotation_covariance_rad2()),
+        warnings,
+    }
+}
+
+/// The fit without sample `i`; `None` where the rest does not determine it.
+fn left_out(pairs: &[Pair], fit: &Fit, i: usize, options: &Options) -> Option<LeftOut> {
+    let mut weights = fit.weights.clone();
+    weights[i] = 0.0;
+    let model = refine::least_squares(pairs, &weights, &fit.model, &fit.noise)?;
+    let offset = model.offset(&pairs[i]);
+    Some(LeftOut {
+        translation_m: offset.translation.norm(),
+        rotation_rad: Some(offset.rotation.norm()),
+        shift_at_fruit_m: shift_at(&model.camera, &fit.model.camera, options.fruit_distance_m),
+    })
+}

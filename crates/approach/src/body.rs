@@ -203,13 +203,15 @@ mod tests {
         let mut least = f64::INFINITY;
         for i in 0..=N {
             for j in 0..=N {
-                let p = body.corner
-                    + body.u * (i as f64 / N as f64)
-                    + body.v * (j as f64 / N as f64);
+                let p =
+                    body.corner + body.u * (i as f64 / N as f64) + body.v * (j as f64 / N as f64);
                 least = least.min(segment.distance(&p));
             }
         }
-        (least - body.radius, (body.u.norm() + body.v.norm()) / N as f64)
+        (
+            least - body.radius,
+            (body.u.norm() + body.v.norm()) / N as f64,
+        )
     }
 
     proptest! {

@@ -75,6 +75,13 @@ pub struct MotionConfig {
     pub retreat_speed_m_per_s: f64,
     /// Samples of a path in the record. Default 41.
     pub samples: usize,
+    /// Where the tool starts, in the base's frame. Default: 0.25 m before the camera on its optical
+    /// axis, where it saw nothing nearer.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub start_m: Option<[f64; 3]>,
+    /// Its orientation there, x y z w. Default: it points as the camera looks.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub start_quaternion_xyzw: Option<[f64; 4]>,
 }
 
 impl Default for MotionConfig {
@@ -88,6 +95,8 @@ impl Default for MotionConfig {
             approach_speed_m_per_s: 0.15,
             retreat_speed_m_per_s: 0.10,
             samples: 41,
+            start_m: None,
+            start_quaternion_xyzw: None,
         }
     }
 }
@@ -103,6 +112,8 @@ pub struct ClearanceConfig {
     /// From the other points of the cloud. Default 0. Negative: the gripper may brush through
     /// leaves to this depth, and through wood that was taken for leaves.
     pub cloud_margin_m: f64,
+    /// Radius of a branch whose fit gives none. Default 0.006. More: bears thick branches.
+    pub branch_radius_m: f64,
     /// Nothing farther than this is looked for. Default 0.060. More: slower, larger figures.
     pub cutoff_m: f64,
     /// Clearances are known to within this. Default 0.002. Less: tighter ways are found, slower in
@@ -128,6 +139,7 @@ impl Default for ClearanceConfig {
             branch_margin_m: 0.005,
             apple_margin_m: 0.003,
             cloud_margin_m: 0.0,
+            branch_radius_m: 0.006,
             cutoff_m: 0.060,
             resolution_m: 0.002,
             voxel_m: 0.005,
@@ -157,6 +169,9 @@ pub struct SearchConfig {
     pub roll: Roll,
     /// Rolls tried over half a turn where roll is free. Default 4.
     pub rolls: usize,
+    /// Half-angle within which a tilted approach is as good, where the method states none. Default
+    /// 0.17 (10°). More: more ways around obstacles, less true to the direction.
+    pub direction_uncertainty_rad: f64,
     /// Largest tilt of the approach off the direction, whatever its uncertainty. Default 0.35 (20°).
     pub tilt_max_rad: f64,
     /// Azimuths at which a tilt is tried. Default 6; 0 tries none.
@@ -171,6 +186,7 @@ impl Default for SearchConfig {
         Self {
             roll: Roll::Aligned,
             rolls: 4,
+            direction_uncertainty_rad: 0.17,
             tilt_max_rad: 0.35,
             tilt_azimuths: 6,
             detour_m: 0.20,
@@ -284,6 +300,15 @@ impl MotionConfig {
             let ok = value <= self.speed_max_m_per_s;
             require(ok, name, value, "at most speed_max_m_per_s")?;
         }
+        for c in self.start_m.into_iter().flatten() {
+            require(c.abs() <= 100.0, "motion.start_m", c, "within 100 metres")?;
+        }
+        if let Some(q) = self.start_quaternion_xyzw {
+            let norm = q.iter().map(|c| c * c).sum::<f64>().sqrt();
+            let ok = (norm - 1.0).abs() <= 1e-3;
+            let rule = "of norm 1; copy all digits, in the order x y z w";
+            require(ok, "motion.start_quaternion_xyzw", norm, rule)?;
+        }
         require(
             (2..=10_000).contains(&self.samples),
             "motion.samples",
@@ -323,11 +348,17 @@ impl ClearanceConfig {
         let rule = "1 or more";
         require(points >= 1.0, "clearance.voxel_min_points", points, rule)?;
         for (name, value, most) in [
+            ("clearance.branch_radius_m", self.branch_radius_m, 0.5),
             ("clearance.own_band_m", self.own_band_m, 0.1),
             ("clearance.region_m", self.region_m, 10.0),
         ] {
             let ok = (0.0..=most).contains(&value);
-            require(ok, name, value, "0 or more and not beyond reason, in metres")?;
+            require(
+                ok,
+                name,
+                value,
+                "0 or more and not beyond reason, in metres",
+            )?;
         }
         Ok(())
     }
@@ -338,9 +369,17 @@ impl SearchConfig {
         let rolls = self.rolls as f64;
         let ok = (1..=64).contains(&self.rolls);
         require(ok, "search.rolls", rolls, "from 1 to 64")?;
-        let tilt = self.tilt_max_rad;
         let rule = "from 0 to 1.5, in radians";
-        require((0.0..=1.5).contains(&tilt), "search.tilt_max_rad", tilt, rule)?;
+        let uncertainty = self.direction_uncertainty_rad;
+        let ok = (0.0..=1.5).contains(&uncertainty);
+        require(ok, "search.direction_uncertainty_rad", uncertainty, rule)?;
+        let tilt = self.tilt_max_rad;
+        require(
+            (0.0..=1.5).contains(&tilt),
+            "search.tilt_max_rad",
+            tilt,
+            rule,
+        )?;
         let azimuths = self.tilt_azimuths;
         require(
             azimuths <= 64,
@@ -350,7 +389,12 @@ impl SearchConfig {
         )?;
         let detour = self.detour_m;
         let rule = "from 0 to 2, in metres";
-        require((0.0..=2.0).contains(&detour), "search.detour_m", detour, rule)
+        require(
+            (0.0..=2.0).contains(&detour),
+            "search.detour_m",
+            detour,
+            rule,
+        )
     }
 }
 
@@ -372,14 +416,29 @@ mod tests {
     fn nonsense_is_refused_by_name() {
         for (text, part) in [
             ("[gripper]\njaw_width_m = -1.0", "gripper.jaw_width_m"),
-            ("[gripper]\nwrist_from_tool_quaternion_xyzw = [1.0, 1.0, 0.0, 0.0]", "norm 1"),
+            (
+                "[gripper]\nwrist_from_tool_quaternion_xyzw = [1.0, 1.0, 0.0, 0.0]",
+                "norm 1",
+            ),
             ("[reach]\nshell_outer_m = 0.1", "reach.shell_outer_m"),
-            ("[reach]\nbehind_angle_max_rad = nan", "behind_angle_max_rad"),
-            ("[reach]\nbox_max_m = [10.0, -20.0, 10.0]", "reach.box_max_m"),
+            (
+                "[reach]\nbehind_angle_max_rad = nan",
+                "behind_angle_max_rad",
+            ),
+            (
+                "[reach]\nbox_max_m = [10.0, -20.0, 10.0]",
+                "reach.box_max_m",
+            ),
             ("[motion]\nsamples = 1", "motion.samples"),
-            ("[motion]\napproach_speed_m_per_s = 3.0", "speed_max_m_per_s"),
+            (
+                "[motion]\napproach_speed_m_per_s = 3.0",
+                "speed_max_m_per_s",
+            ),
             ("[clearance]\ncutoff_m = 0.001", "clearance.cutoff_m"),
-            ("[clearance]\nvoxel_min_points = 0", "clearance.voxel_min_points"),
+            (
+                "[clearance]\nvoxel_min_points = 0",
+                "clearance.voxel_min_points",
+            ),
             ("[search]\nrolls = 0", "search.rolls"),
         ] {
             let config: ApproachConfig = toml::from_str(text).unwrap();

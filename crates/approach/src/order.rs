@@ -106,7 +106,7 @@ fn clear_blocked(
     for &i in blocked {
         if approaches[i].is_err() {
             // What is in its way as the frame is says more than what is left without neighbours.
-            approaches[i] = refusals[i].clone();
+            approaches[i].clone_from(&refusals[i]);
         }
     }
 }
@@ -155,7 +155,10 @@ fn rank(
         };
         let sooner = |a: &&usize, b: &&usize| {
             let (a, b) = (**a, **b);
-            let by_blockers = blockers[a].is_empty().cmp(&blockers[b].is_empty()).reverse();
+            let by_blockers = blockers[a]
+                .is_empty()
+                .cmp(&blockers[b].is_empty())
+                .reverse();
             by_blockers
                 .then(targets[b].confidence.total_cmp(&targets[a].confidence))
                 .then(slack(b).total_cmp(&slack(a)))

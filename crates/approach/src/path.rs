@@ -117,7 +117,10 @@ impl Path {
                 motion.acceleration_max_m_per_s2,
             )
         };
-        let grasp_s = push(Stage::Approach, Quintic::between(&entry, &arrival, duration)?);
+        let grasp_s = push(
+            Stage::Approach,
+            Quintic::between(&entry, &arrival, duration)?,
+        );
         let back = (way.retreat - way.grasp).norm();
         let duration = rest_to_rest_s(
             back,
@@ -249,7 +252,9 @@ fn transit(
     let turning = PEAK_SPEED * turn / motion.turn_max_rad_per_s;
     let all: f64 = durations.iter().sum();
     if turning > all {
-        durations.iter_mut().for_each(|d| *d *= turning / all);
+        for duration in &mut durations {
+            *duration *= turning / all;
+        }
     }
     let mut answer = None;
     for _ in 0..12 {
@@ -275,7 +280,9 @@ fn transit(
         if over <= 1.0 {
             break;
         }
-        durations.iter_mut().for_each(|d| *d *= over * 1.01);
+        for duration in &mut durations {
+            *duration *= over * 1.01;
+        }
     }
     answer
 }

@@ -89,6 +89,8 @@ mod tests {
         assert!(aligned(&direction, &Vector3::new(f64::NAN, 0.0, 0.0)).is_none());
         let half = aligned(&direction, &Vector3::y()).unwrap();
         let near = nearer_half_turn(half, &tool_rotation(&direction, 0.0));
-        assert!(near.angle_to(&tool_rotation(&direction, 0.0)) <= std::f64::consts::FRAC_PI_2 + 1e-12);
+        assert!(
+            near.angle_to(&tool_rotation(&direction, 0.0)) <= std::f64::consts::FRAC_PI_2 + 1e-12
+        );
     }
 }

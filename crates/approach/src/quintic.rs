@@ -66,9 +66,7 @@ impl<const D: usize> Quintic<D> {
             scale /= t;
             scaled
         });
-        let finite = coefficients
-            .iter()
-            .all(|c| c.iter().all(|x| x.is_finite()));
+        let finite = coefficients.iter().all(|c| c.iter().all(|x| x.is_finite()));
         (t.is_finite() && t > 0.0 && finite).then_some(Self {
             coefficients,
             duration_s,

@@ -149,7 +149,7 @@ pub(crate) struct View<'a> {
     pub(crate) target: usize,
     /// Whether its sphere does.
     pub(crate) target_counts: bool,
-    /// Apples that are gone, by number.
+    /// Apples that are gone, by number; the target never is.
     pub(crate) gone: &'a [bool],
     /// Whether branches and the cloud count.
     pub(crate) wood_counts: bool,
@@ -184,7 +184,12 @@ impl Scene {
         let margin = config.apple_margin_m;
         for (number, apple) in self.apples.iter().enumerate() {
             let is_target = number == view.target;
-            if !view.shows(number) || is_target && !view.target_counts {
+            let counts = if is_target {
+                view.target_counts
+            } else {
+                view.shows(number)
+            };
+            if !counts {
                 continue;
             }
             let obstacle = Obstacle::Apple(number);
@@ -192,8 +197,7 @@ impl Scene {
                 start: apple.center,
                 end: apple.center,
             };
-            if let Some((distance, point, _)) =
-                shape.distance(&ball, bound + margin + apple.radius)
+            if let Some((distance, point, _)) = shape.distance(&ball, bound + margin + apple.radius)
             {
                 take(distance - apple.radius, margin, obstacle, point, &mut bound);
             }
@@ -215,7 +219,13 @@ impl Scene {
                 shape.distance(&branch.segment, bound + margin + branch.radius)
             {
                 let obstacle = Obstacle::Branch(number);
-                take(distance - branch.radius, margin, obstacle, point, &mut bound);
+                take(
+                    distance - branch.radius,
+                    margin,
+                    obstacle,
+                    point,
+                    &mut bound,
+                );
             }
         }
         let margin = config.cloud_margin_m;

@@ -1,0 +1,71 @@
+//! The clearance along a curved path, with nothing missed between two looks.
+
+use crate::body::Body;
+use crate::scene::{Hit, Scene, Shape, View};
+use crate::{ClearanceConfig, Path, Stage};
+
+/// Intervals of a piece over which its speed is bounded by one number.
+const INTERVALS: usize = 12;
+
+/// The hit with the least slack, and when.
+pub(crate) type TimedHit = (Hit, f64);
+
+/// What comes nearest during the transit.
+///
+/// Conservative advancement (Mirtich 1996, Section 2.3.2): where the slack is s, no point of the gripper
+/// can use it up before it has moved by s. So the next look may be that much later, by a bound on the
+/// speed of the fastest point. Slacks are wanted to within a resolution ε, so a look is taken
+/// whenever the least slack so far, less ε, might be undercut. A slack under ε is a collision:
+/// then all slacks between two looks are at least 0.
+///
+/// # Errors
+///
+/// The first look with a slack under ε.
+pub(crate) fn transit(
+    path: &Path,
+    open: &[Body; 4],
+    radius_about_tool: f64,
+    scene: &Scene,
+    view: &View<'_>,
+    config: &ClearanceConfig,
+) -> Result<Option<TimedHit>, TimedHit> {
+    let resolution = config.resolution_m;
+    let mut least: Option<TimedHit> = None;
+    let least_slack = |least: &Option<TimedHit>| least.map_or(config.cutoff_m, |(h, _)| h.slack());
+    let mut allowance = 0.0;
+    let mut first = true;
+    for piece in path.pieces().iter().filter(|p| p.stage == Stage::Transit) {
+        let step = piece.curve.duration_s / INTERVALS as f64;
+        for interval in 0..INTERVALS {
+            let from = piece.start_s + interval as f64 * step;
+            let to = from + step;
+            let speed = path.point_speed_bound(piece, from, to, radius_about_tool);
+            let mut time = from;
+            loop {
+                let left = (to - time) * speed;
+                if !first && left <= allowance {
+                    allowance -= left;
+                    break;
+                }
+                if !first {
+                    time += allowance / speed;
+                }
+                first = false;
+                let pose = path.sample(time).pose();
+                let bodies = open.map(|body| body.moved(&pose));
+                let hit = scene.nearest(&Shape::new(&bodies), view, config, config.cutoff_m);
+                let slack = hit.map_or(config.cutoff_m, |h| h.slack());
+                if let Some(hit) = hit
+                    && slack < least_slack(&least)
+                {
+                    least = Some((hit, time));
+                }
+                if slack < resolution {
+                    return hit.map_or(Ok(least), |hit| Err((hit, time)));
+                }
+                allowance = slack - least_slack(&least) + resolution;
+            }
+        }
+    }
+    Ok(least)
+}

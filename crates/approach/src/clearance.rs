@@ -1,0 +1,63 @@
+/// What the gripper comes near to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Obstacle {
+    /// An apple, its sphere or the points of the cloud on it, by its number in the scene; also the
+    /// target itself, before the gripper is about it.
+    Apple(usize),
+    /// A branch, by its number in the scene.
+    Branch(usize),
+    /// Points of the cloud that no apple and no branch explains: leaves, trunks, wires.
+    Cloud,
+}
+
+/// A part of the path.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Stage {
+    /// From the start to the pre-grasp.
+    Transit,
+    /// Straight from the pre-grasp to the apple.
+    Approach,
+    /// Straight back, with the apple.
+    Retreat,
+}
+
+impl Stage {
+    /// Its name in records.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Transit => "transit",
+            Self::Approach => "approach",
+            Self::Retreat => "retreat",
+        }
+    }
+}
+
+/// How near the gripper, or the apple in it, comes to what is in the way; metres and seconds.
+///
+/// Of all obstacles it is the one that comes nearest to (or farthest below) its own margin.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Clearance {
+    /// Signed distance of the surfaces, negative where they overlap.
+    ///
+    /// Of a path that is free it is a lower bound, less than the distance itself by no more than the
+    /// configured resolution. Where nothing comes within the configured cutoff, it is the cutoff.
+    pub distance_m: f64,
+    /// The least distance that was asked for from this obstacle.
+    pub margin_m: f64,
+    /// The obstacle; `None` where nothing comes within the cutoff.
+    pub obstacle: Option<Obstacle>,
+    /// The obstacle's point (on its axis, at its centre, or in the cloud) that is nearest, in the
+    /// base's frame; for no obstacle, where the tool is then.
+    pub point_m: [f64; 3],
+    /// When, since the start of the path.
+    pub time_s: f64,
+    /// During which stage.
+    pub stage: Stage,
+}
+
+impl Clearance {
+    /// What is left of the distance beyond the margin, in metres; negative for a collision.
+    pub fn slack_m(&self) -> f64 {
+        self.distance_m - self.margin_m
+    }
+}

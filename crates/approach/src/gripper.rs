@@ -1,0 +1,254 @@
+use crate::body::Body;
+use crate::config::require;
+use crate::error::ConfigError;
+use nalgebra::{Isometry3, Point3, Quaternion, Translation3, UnitQuaternion, Vector3};
+use serde::{Deserialize, Serialize};
+
+/// A gripper with two parallel fingers, a palm and a wrist; lengths in metres.
+///
+/// In the tool frame (origin between the fingers, +x the approach, y the opening) the fingers' axes
+/// run along x at y = ±(`jaw_width_m` + `finger_thickness_m`) / 2, the palm joins them behind the
+/// fruit, the wrist runs back from the palm. All four are capsules.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Gripper {
+    /// Room between the open fingers. Default 0.100. Wider: larger apples, and more of what stands
+    /// about them is in the way.
+    pub jaw_width_m: f64,
+    /// Diameter of a finger. Default 0.012.
+    pub finger_thickness_m: f64,
+    /// How far the fingertips go beyond the apple's centre. Default 0.015. Farther: a surer hold,
+    /// nearer to the branch.
+    pub finger_reach_m: f64,
+    /// From the apple's centre back to the palm's surface. Default 0.060.
+    pub palm_depth_m: f64,
+    /// Diameter of the palm's bar. Default 0.030.
+    pub palm_thickness_m: f64,
+    /// Diameter of the wrist behind the palm. Default 0.070.
+    pub wrist_diameter_m: f64,
+    /// Length of the wrist behind the palm's surface that is checked. Default 0.150. Longer: more of
+    /// the arm is known to be free.
+    pub wrist_length_m: f64,
+    /// Room for error between the apple's surface and each finger and the palm. Default 0.005. Less:
+    /// larger apples, and fingers that knock against them.
+    pub grip_margin_m: f64,
+    /// Place of the tool frame in the frame of the wrist link, which robots' programs move.
+    /// Default 0 0 0.
+    pub wrist_from_tool_translation_m: [f64; 3],
+    /// Orientation of the tool frame in the frame of the wrist link, x y z w. Default 0 0 0 1: the
+    /// link approaches along its +x. For one that approaches along +z: 0 -0.7071 0 0.7071.
+    pub wrist_from_tool_quaternion_xyzw: [f64; 4],
+}
+
+impl Default for Gripper {
+    fn default() -> Self {
+        Self {
+            jaw_width_m: 0.100,
+            finger_thickness_m: 0.012,
+            finger_reach_m: 0.015,
+            palm_depth_m: 0.060,
+            palm_thickness_m: 0.030,
+            wrist_diameter_m: 0.070,
+            wrist_length_m: 0.150,
+            grip_margin_m: 0.005,
+            wrist_from_tool_translation_m: [0.0; 3],
+            wrist_from_tool_quaternion_xyzw: [0.0, 0.0, 0.0, 1.0],
+        }
+    }
+}
+
+impl Gripper {
+    pub(crate) fn validate(&self) -> Result<(), ConfigError> {
+        for (name, value) in [
+            ("gripper.jaw_width_m", self.jaw_width_m),
+            ("gripper.finger_thickness_m", self.finger_thickness_m),
+            ("gripper.palm_depth_m", self.palm_depth_m),
+            ("gripper.palm_thickness_m", self.palm_thickness_m),
+            ("gripper.wrist_diameter_m", self.wrist_diameter_m),
+        ] {
+            let rule = "over 0 and at most 1, in metres";
+            require(value > 0.0 && value <= 1.0, name, value, rule)?;
+        }
+        let rule = "from 0 to 1, in metres";
+        for (name, value) in [
+            ("gripper.finger_reach_m", self.finger_reach_m),
+            ("gripper.wrist_length_m", self.wrist_length_m),
+            ("gripper.grip_margin_m", self.grip_margin_m),
+        ] {
+            require((0.0..=1.0).contains(&value), name, value, rule)?;
+        }
+        let [x, y, z] = self.wrist_from_tool_translation_m;
+        require(
+            x.hypot(y).hypot(z) <= 2.0,
+            "gripper.wrist_from_tool_translation_m",
+            x.hypot(y).hypot(z),
+            "at most 2 metres long",
+        )?;
+        let [x, y, z, w] = self.wrist_from_tool_quaternion_xyzw;
+        let norm = Quaternion::new(w, x, y, z).norm();
+        require(
+            (norm - 1.0).abs() <= 1e-3,
+            "gripper.wrist_from_tool_quaternion_xyzw",
+            norm,
+            "of norm 1; copy all digits, in the order x y z w",
+        )
+    }
+
+    /// Pose of the tool frame in the frame of the wrist link.
+    pub fn wrist_from_tool(&self) -> Isometry3<f64> {
+        let [x, y, z, w] = self.wrist_from_tool_quaternion_xyzw;
+        Isometry3::from_parts(
+            Translation3::from(self.wrist_from_tool_translation_m),
+            UnitQuaternion::new_normalize(Quaternion::new(w, x, y, z)),
+        )
+    }
+
+    /// Pose of the wrist link for a pose of the tool frame, both in the base's frame.
+    pub fn wrist_pose(&self, tool_pose: &Isometry3<f64>) -> Isometry3<f64> {
+        tool_pose * self.wrist_from_tool().inverse()
+    }
+
+    /// The opening and the depth that an apple of this radius needs, in metres, margins included.
+    pub fn needed_for(&self, radius_m: f64) -> (f64, f64) {
+        let half = radius_m + self.grip_margin_m;
+        (2.0 * half, half)
+    }
+
+    fn finger_axis(&self) -> f64 {
+        0.5 * (self.jaw_width_m + self.finger_thickness_m)
+    }
+
+    fn palm_axis(&self) -> f64 {
+        -self.palm_depth_m - 0.5 * self.palm_thickness_m
+    }
+
+    /// The ends of a finger's axis along x.
+    fn finger_span(&self) -> (f64, f64) {
+        let tip = self.finger_reach_m - 0.5 * self.finger_thickness_m;
+        (self.palm_axis(), tip.max(self.palm_axis()))
+    }
+
+    /// The parts of the open gripper in the tool frame.
+    pub(crate) fn open(&self) -> [Body; 4] {
+        let y = self.finger_axis();
+        let (back, tip) = self.finger_span();
+        let finger = |y: f64| {
+            let radius = 0.5 * self.finger_thickness_m;
+            Body::capsule(Point3::new(back, y, 0.0), Point3::new(tip, y, 0.0), radius)
+        };
+        let [palm, wrist] = self.behind();
+        [finger(y), finger(-y), palm, wrist]
+    }
+
+    fn behind(&self) -> [Body; 2] {
+        let (x, y) = (self.palm_axis(), self.finger_axis());
+        let palm = Body::capsule(
+            Point3::new(x, -y, 0.0),
+            Point3::new(x, y, 0.0),
+            0.5 * self.palm_thickness_m,
+        );
+        let radius = 0.5 * self.wrist_diameter_m;
+        let front = -self.palm_depth_m - radius;
+        let end = (radius - self.palm_depth_m - self.wrist_length_m).min(front);
+        let wrist = Body::capsule(
+            Point3::new(front, 0.0, 0.0),
+            Point3::new(end, 0.0, 0.0),
+            radius,
+        );
+        [palm, wrist]
+    }
+
+    /// What the gripper sweeps on its straight of `length_m` that ends about an apple of this
+    /// radius, in the tool frame at the apple: fingers open and closed and all between, palm, wrist.
+    pub(crate) fn swept(&self, length_m: f64, radius_m: f64) -> [Body; 4] {
+        let thickness = self.finger_thickness_m;
+        let open = self.finger_axis();
+        let closed = (radius_m + 0.5 * thickness).min(open);
+        let (back, tip) = self.finger_span();
+        let run = Vector3::new(tip - back + length_m, 0.0, 0.0);
+        let finger = |sign: f64| {
+            let corner = Point3::new(back - length_m, sign * open, 0.0);
+            let inward = Vector3::new(0.0, sign * (closed - open), 0.0);
+            Body::rectangle(corner, run, inward, 0.5 * thickness)
+        };
+        let path = Vector3::new(-length_m, 0.0, 0.0);
+        let [palm, wrist] = self.behind().map(|part| part.swept(path));
+        [finger(1.0), finger(-1.0), palm, wrist]
+    }
+
+    /// How far the foremost point of each part of [`Gripper::open`] lies before the tool's origin.
+    pub(crate) fn fronts(&self) -> [f64; 4] {
+        let finger = self.finger_reach_m;
+        [finger, finger, -self.palm_depth_m, -self.palm_depth_m]
+    }
+
+    /// The farthest that any part is from the tool's origin.
+    pub(crate) fn radius_about_tool(&self) -> f64 {
+        let far = |body: &Body| {
+            let corners = body.corners();
+            corners.iter().map(|p| p.coords.norm()).fold(0.0, f64::max) + body.radius
+        };
+        self.open().iter().map(far).fold(0.0, f64::max)
+    }
+
+    /// The open gripper as axis and radius of each of its capsules in the tool frame, for pictures
+    /// and for other programs' collision models.
+    pub fn capsules(&self) -> [(Point3<f64>, Point3<f64>, f64); 4] {
+        self.open().map(|body| {
+            let [start, end, ..] = body.corners();
+            (start, end, body.radius)
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn parts_stand_where_their_sizes_say() {
+        let gripper = Gripper::default();
+        let distance = |p: [f64; 3]| {
+            let p = Point3::from(p);
+            let all = gripper.open().map(|b| b.distance_to_point(&p));
+            all.into_iter().fold(f64::INFINITY, f64::min)
+        };
+        assert!((distance([0.0, 0.0, 0.0]) - 0.05).abs() < 1e-15, "jaw");
+        assert!((distance([-0.03, 0.0, 0.0]) - 0.03).abs() < 1e-15, "palm");
+        assert!((distance([0.115, 0.056, 0.0]) - 0.1).abs() < 1e-15, "tip");
+        assert!((distance([-0.31, 0.0, 0.0]) - 0.1).abs() < 1e-15, "wrist");
+        assert!(distance([-0.075, 0.0, 0.0]) <= -0.015);
+        assert!((gripper.radius_about_tool() - 0.21).abs() < 1e-12);
+    }
+
+    #[test]
+    fn the_sweep_holds_the_gripper_at_every_step() {
+        let gripper = Gripper::default();
+        let swept = gripper.swept(0.15, 0.04);
+        for step in 0..=15 {
+            let shift = Translation3::new(-0.01 * f64::from(step), 0.0, 0.0).into();
+            for (part, whole) in gripper.open().iter().zip(&swept) {
+                let part = part.moved(&shift);
+                for corner in part.corners() {
+                    assert!(whole.distance_to_point(&corner) <= -part.radius + 1e-12);
+                }
+            }
+        }
+        let closed = Point3::new(0.0, 0.046, 0.0);
+        assert!(swept[0].distance_to_point(&closed) <= -0.006 + 1e-12);
+    }
+
+    #[test]
+    fn the_wrist_follows_the_tool() {
+        let gripper = Gripper {
+            wrist_from_tool_translation_m: [0.0, 0.0, 0.2],
+            wrist_from_tool_quaternion_xyzw: [0.0, -0.5_f64.sqrt(), 0.0, 0.5_f64.sqrt()],
+            ..Gripper::default()
+        };
+        gripper.validate().unwrap();
+        let wrist = gripper.wrist_pose(&Isometry3::identity());
+        // The link's +z is the tool's +x, and the link stands 0.2 m behind.
+        assert!((wrist * Vector3::z() - Vector3::x()).norm() < 1e-12);
+        assert!((wrist * Point3::origin() - Point3::new(-0.2, 0.0, 0.0)).norm() < 1e-12);
+    }
+}

@@ -1,0 +1,104 @@
+//! How a gripper gets to an apple and away again: pose, path, clearance, refusals, order.
+//!
+//! ```
+//! use nalgebra::{Point3, Vector3};
+//! use pomona_approach::{ApproachConfig, Planner, Scene, StartPose, Target, pick_order};
+//! use pomona_geometry::{Capsule, Segment, Sphere};
+//! use pomona_transforms::Direction;
+//!
+//! // An apple 0.8 m in front of the base, hanging below a branch that runs along y.
+//! let apple = Sphere::new(Point3::new(0.8, 0.0, 0.5), 0.035).unwrap();
+//! let axis = Segment::new(Point3::new(0.8, -0.3, 0.55), Point3::new(0.8, 0.3, 0.55)).unwrap();
+//! let branch = Capsule::new(axis, 0.005).unwrap();
+//! let upwards = Direction::new(Vector3::z()).unwrap();
+//!
+//! let planner = Planner::new(ApproachConfig::default())?;
+//! let scene = Scene::new(vec![apple], vec![branch], &[], &planner.config().clearance);
+//! let mut target = Target::new(0, upwards);
+//! target.branch = Some(Vector3::y());
+//! let start = StartPose::looking_along_x(Point3::new(0.3, 0.0, 0.4));
+//!
+//! let approach = planner.plan(&scene, &target, &start)?;
+//! assert!((approach.direction.vector() - Vector3::z()).norm() < 1e-12);
+//! assert!(approach.clearance.distance_m > 0.0);
+//! // The tool comes from below, arrives at the centre, and rests there.
+//! let grasp = approach.path.sample(approach.path.grasp_s());
+//! assert!((grasp.position - apple.center).norm() < 1e-9 && grasp.velocity.norm() < 1e-9);
+//!
+//! let order = pick_order(&planner, &scene, &[target], &start);
+//! assert_eq!(order.ranks[0].target, 0);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # Concepts
+//!
+//! - All places and directions are those of one frame, the robot's base: z up, the base at its
+//!   origin, metres, radians, seconds.
+//! - The *tool frame* has its origin, the tool centre point, between the fingers where the apple's
+//!   centre comes to rest; the gripper approaches along +x and opens along ±y. A [`Gripper`] is
+//!   two fingers, a palm and a wrist, each a capsule (a rod with round ends).
+//! - A [`Target`] is an apple with one or more directions OC, from its centre to the foot of the
+//!   perpendicular on its branch. The gripper moves *along* +OC: from the fruit's far side
+//!   towards the branch (Gao et al. 2022, Section 2.2.5).
+//! - A [`Path`] has three stages: the transit from where the tool is to the pre-grasp, a standoff
+//!   before the apple; the straight final approach; the straight retreat. It is made of
+//!   [`Quintic`]s that agree in position, velocity and acceleration where they meet. The source
+//!   says that its path is a polynomial, and gives neither degree nor coefficients; five is the
+//!   least degree that takes all three at both ends.
+//! - A [`Scene`] holds what is in the way: apples, branches of the extent that was seen, and the
+//!   points of the cloud that neither explains. [`Clearance`] is the signed distance of the
+//!   gripper from the nearest of these along the whole path, not at samples of it: between
+//!   samples it is bounded by the speed of the gripper's fastest point, and the straight stages are
+//!   tested as the volumes that they sweep.
+//! - A [`Planner`] tries the directions in their order, each with tilts within its uncertainty and
+//!   with the allowed rolls, and answers with the first [`Approach`] that is free, or with the
+//!   [`Refusal`] of the first one tried.
+//! - [`pick_order`] ranks the targets of a frame, and says why.
+//!
+//! # Not here
+//!
+//! How the apple was found; the arm's joints (a pose within reach may still have no solution or one
+//! in which the arm touches something); what the camera has not seen, which is nowhere an
+//! obstacle; the forces of the grasp; files and messages of robots' programs.
+//!
+//! # References
+//!
+//! - Gao, Zhou, Cao, Jiang 2022, "An Algorithm for Calculating Apple Picking Direction Based on
+//!   3D Vision", Agriculture 12(8), 1170, doi 10.3390/agriculture12081170: the direction of
+//!   approach, Figure 3b.
+//! - Flash, Hogan 1985, "The coordination of arm movements", The Journal of Neuroscience 5(7),
+//!   doi 10.1523/JNEUROSCI.05-07-01688.1985: quintics minimise the jerk.
+//! - Mirtich 1996, "Impulse-based Dynamic Simulation of Rigid Body Systems", PhD thesis, University of
+//!   California, Section 2.3.2: conservative advancement.
+//! - Ericson 2005, "Real-Time Collision Detection", Section 5.1.9: distance of two segments.
+//! - Farouki 2012, "The Bernstein polynomial basis", CAGD 29(6), 379–419,
+//!   doi 10.1016/j.cagd.2012.03.001: a polynomial lies within its coefficients' hull.
+
+mod advance;
+mod body;
+mod clearance;
+mod config;
+mod error;
+mod gripper;
+mod order;
+mod path;
+mod planner;
+mod point_tree;
+mod pose;
+mod quintic;
+mod scene;
+mod sweep;
+mod target;
+
+pub use clearance::{Clearance, Obstacle, Stage};
+pub use config::{ApproachConfig, ClearanceConfig, MotionConfig, ReachConfig, Roll, SearchConfig};
+pub use error::{ConfigError, ReachLimit, Refusal};
+pub use gripper::Gripper;
+pub use order::{Order, Rank, Reason, pick_order};
+pub use path::{Path, Piece, Sample};
+pub use planner::{Approach, Planner};
+pub use point_tree::PointTree;
+pub use pose::tool_rotation;
+pub use quintic::{Quintic, State};
+pub use scene::Scene;
+pub use target::{StartPose, Target};

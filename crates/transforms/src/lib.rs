@@ -73,6 +73,7 @@ mod direction;
 mod error;
 mod euler;
 mod file;
+pub mod formats;
 mod frame;
 mod json;
 mod matrix;

@@ -64,9 +64,9 @@ proptest! {
     #[test]
     fn exact_pairs_give_the_exact_answer_among_wrong_ones(seed in any::<u64>(), n in 8..20usize) {
         let mut samples = samples(n, 0.0, seed);
-        for k in 0..n / 4 {
-            let wrong = samples[k].robot.point() + Vector3::new(0.1, 0.2, -0.1 * (k as f64 + 1.0));
-            samples[k].robot = Position::new(wrong);
+        for (k, sample) in samples.iter_mut().take(n / 4).enumerate() {
+            let wrong = Vector3::new(0.1, 0.2, -0.1 * (k as f64 + 1.0));
+            sample.robot = Position::new(sample.robot.point() + wrong);
         }
         let found = calibrate(&samples).unwrap();
         prop_assert!((found.camera.transform.matrix() - truth().matrix()).amax() < 1e-9);

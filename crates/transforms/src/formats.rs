@@ -46,10 +46,14 @@ pub enum FormatError {
 }
 
 impl FormatError {
-    fn new(place: impl Into<String>, problem: impl ToString, remedy: &'static str) -> Self {
+    fn new(
+        place: impl Into<String>,
+        problem: impl std::fmt::Display,
+        remedy: &'static str,
+    ) -> Self {
         Self::Form {
             place: place.into(),
-            problem: problem.to_string(),
+            problem: format!("{problem}"),
             remedy,
         }
     }

@@ -1,4 +1,4 @@
-//! Calibration files of easy_handeye and easy_handeye2.
+//! Calibration files of `easy_handeye` and `easy_handeye2`.
 
 use super::{FormatError, checked, shown};
 use crate::{FrameTag, NamedTransform, Transform};
@@ -76,7 +76,7 @@ struct Flat {
     qw: f64,
 }
 
-/// The file as easy_handeye2 has it: the destination is the base's frame, or the effector's with
+/// The file as `easy_handeye2` has it: the destination is the base's frame, or the effector's with
 /// [`HandEyeType::EyeInHand`], and the source the tracking base's, which is the camera's.
 ///
 /// `other_frame` is the frame that is not in the transform: the effector's for an eye on the base, the base's for

@@ -1,4 +1,4 @@
-//! Matrices as OpenCV's FileStorage writes them in YAML.
+//! Matrices as OpenCV's `FileStorage` writes them in YAML.
 
 use super::{FormatError, checked, shown};
 use crate::{FrameTag, NamedTransform, Transform};

@@ -1,5 +1,6 @@
 //! `cargo xtask bench`: how long it takes and how far off it is, ours and, on demand, the peers'.
 
+mod calibration;
 mod clouds;
 mod comparison;
 mod engine;
@@ -19,10 +20,14 @@ use std::process::Command;
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// Also ask the peers that are installed to fit the same clouds, in turns with ours
-    #[arg(long)]
+    #[arg(long, group = "contest")]
     peers: bool,
+    /// Only calibrate so many seeded trials of each case, 200 by default, beside OpenCV's solvers where these are
+    /// installed
+    #[arg(long, group = "contest", value_name = "N", num_args = 0..=1, require_equals = true, default_missing_value = "200", value_parser = clap::value_parser!(u32).range(1..))]
+    calibration: Option<u32>,
     /// Get those peers first that a package registry holds
-    #[arg(long, requires = "peers")]
+    #[arg(long, requires = "contest")]
     install: bool,
     /// Leave out our own benchmarks and go straight to the peers
     #[arg(long, requires = "peers")]
@@ -43,11 +48,14 @@ const SUITES: [&str; 3] = ["lab15", "repeat474", "orchard"];
 /// Runs and prints it all.
 pub(crate) fn run(args: &Args) -> Result<()> {
     let workspace = Workspace::read()?;
-    if !args.only_peers {
+    if !args.only_peers && args.calibration.is_none() {
         own::run(&workspace, args.filter.as_deref())?;
     }
     if args.peers {
         compare(&workspace, args)?;
+    }
+    if args.peers || args.calibration.is_some() {
+        calibration::run(&workspace, args.calibration.unwrap_or(200), args.install)?;
     }
     Ok(())
 }

@@ -15,6 +15,16 @@ pub enum CalibrateError {
         /// Its value.
         value: f64,
     },
+    /// The samples are not for what is to be calibrated.
+    #[error(
+        "the samples are {found}, but `{kind}` needs the others; give points for `points`, poses for the other kinds"
+    )]
+    OtherSamples {
+        /// What was to be calibrated.
+        kind: &'static str,
+        /// What the samples are.
+        found: &'static str,
+    },
     /// There are fewer samples than the unknowns and one check need.
     #[error("{found} samples are too few: {needed} at least, better 12 to 20; take more")]
     TooFew {

@@ -108,10 +108,14 @@ struct Fault {
 }
 
 impl Fault {
-    fn new(place: impl Into<String>, problem: impl ToString, remedy: impl Into<String>) -> Self {
+    fn new(
+        place: impl Into<String>,
+        problem: impl std::fmt::Display,
+        remedy: impl Into<String>,
+    ) -> Self {
         Self {
             place: place.into(),
-            problem: problem.to_string(),
+            problem: format!("{problem}"),
             remedy: remedy.into(),
         }
     }

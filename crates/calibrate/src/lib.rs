@@ -57,6 +57,7 @@ mod options;
 mod points;
 mod poses;
 mod quality;
+mod record;
 mod robust;
 mod samples;
 
@@ -69,4 +70,5 @@ pub use poses::{
     calibrate_robot_world, solve_without_robustness,
 };
 pub use quality::{LeaveOneOut, LeftOut, Quality, Rejection, RejectionCause, SampleQuality};
+pub use record::{CameraPlace, Kind, Outcome, RECORD_SCHEMA, Record, TransformRecord, calibrate};
 pub use samples::{PointSample, PoseSample};

@@ -26,6 +26,9 @@ const SAFE_POINTS: usize = 6;
 /// The least noise that is believed, m.
 const FLOOR_M: f64 = 1e-6;
 
+/// Six unknowns are the price of two samples.
+const USED: f64 = 2.0;
+
 const MAX_ROUNDS: usize = 50;
 
 type Loss = StudentT<3>;
@@ -156,9 +159,8 @@ fn refine(pairs: &PointPairs, inliers: &[usize], start: &Similarity) -> Option<F
             .zip(&weights)
             .map(|(&i, w)| w * r[i] * r[i])
             .sum();
-        // Six unknowns are the price of two samples.
-        let freedom = 3.0 * (kept.len() as f64 - 2.0).max(1.0);
-        let next_sigma = (squares / freedom).sqrt().max(FLOOR_M);
+        let variance = Loss::variance(squares, 3.0, kept.len() as f64, USED);
+        let next_sigma = variance.sqrt().max(FLOOR_M);
         let gate = Loss::gate().sqrt() * next_sigma;
         let gated: Vec<usize> = (0..n).filter(|&i| r[i] <= gate).collect();
         let gated = if gated.len() >= LEAST_POINTS {
@@ -180,7 +182,7 @@ fn refine(pairs: &PointPairs, inliers: &[usize], start: &Similarity) -> Option<F
         let j = derivatives(&model.apply(&pairs.camera[i]).coords);
         normal += j.transpose() * j;
     }
-    let loss = Loss::efficiency_loss(kept.iter().map(|&i| (r[i] / sigma_m).powi(2)));
+    let loss = Loss::efficiency_loss(kept.iter().map(|&i| (r[i] / sigma_m).powi(2)), USED);
     let inverse = normal.cholesky()?.inverse();
     Some(Fit {
         model,

@@ -159,8 +159,8 @@ fn calibrate<Carrier: FrameTag, Other: FrameTag, R: Rng + ?Sized>(
     let motions = motions::check(&kept)?;
 
     let block = |at: usize| -> Matrix6<f64> { fit.covariance.fixed_view::<6, 6>(at, at).into() };
-    let camera = uncertain(&fit.model.camera, block(0))?;
-    let target = uncertain(&fit.model.target, block(6))?;
+    let camera = uncertain(&fit.model.camera, &block(0))?;
+    let target = uncertain(&fit.model.target, &block(6))?;
     let quality = quality(samples, &pairs, &fit, options, &camera);
     Ok(PoseCalibration {
         camera,
@@ -173,10 +173,10 @@ fn calibrate<Carrier: FrameTag, Other: FrameTag, R: Rng + ?Sized>(
 
 fn uncertain<To: FrameTag, From: FrameTag>(
     isometry: &Isometry3<f64>,
-    covariance: Matrix6<f64>,
+    covariance: &Matrix6<f64>,
 ) -> Result<UncertainTransform<To, From>, CalibrateError> {
     let transform = Transform::from_isometry(isometry).map_err(|_| CalibrateError::Undetermined)?;
-    UncertainTransform::new(transform, covariance).map_err(|_| CalibrateError::Undetermined)
+    UncertainTransform::new(transform, *covariance).map_err(|_| CalibrateError::Undetermined)
 }
 
 /// The consensus of most samples, over all solvers.

@@ -1,5 +1,5 @@
 use crate::terminal::Terminal;
-use crate::{completions, config, convert, evaluate, inspect, pick, scenes};
+use crate::{calibrate, completions, config, convert, evaluate, inspect, pick, scenes};
 use clap::{ArgAction, ColorChoice, Parser, Subcommand, value_parser};
 
 const EXAMPLES: &str = "\
@@ -40,6 +40,8 @@ enum Command {
     Scenes(scenes::ScenesArguments),
     /// Measure methods against truth, or fitted radii against calipers.
     Evaluate(evaluate::EvaluateArguments),
+    /// Find where the camera is, from samples of points or poses.
+    Calibrate(calibrate::CalibrateArguments),
     /// Convert between cloud formats, or a frame to a cloud.
     Convert(convert::ConvertArguments),
     /// Say what frames, clouds, images and results hold.
@@ -63,6 +65,7 @@ impl Arguments {
             Command::Pick(arguments) => pick::run(arguments, terminal),
             Command::Scenes(arguments) => scenes::run(arguments),
             Command::Evaluate(arguments) => evaluate::run(arguments, terminal),
+            Command::Calibrate(arguments) => calibrate::run(arguments, terminal),
             Command::Convert(arguments) => convert::run(arguments),
             Command::Inspect(arguments) => inspect::run(arguments, terminal),
             Command::Config(arguments) => config::run(arguments),

@@ -4,6 +4,7 @@
 
 mod apple_cloud;
 mod arguments;
+mod calibrate;
 mod completions;
 mod config;
 mod convert;

@@ -47,7 +47,11 @@
 //! - A [`NamedTransform`] adds what the types cannot know, the frame ids of a camera and a robot
 //!   at run time, and is what `robot_from_camera.json` holds.
 //! - A [`ToolOrientation`] turns a tool that points along +x into a direction, as a quaternion
-//!   and as [`EulerZyx`] angles; along ±z, where one angle has no value of its own, it says so.
+//!   and as [`EulerZyx`] angles; along ±z, where one angle has no value of its own, it says so. A
+//!   [`ToolModel`] says which axis of the tool approaches, and where the tool is on the flange.
+//! - An [`UncertainTransform`] carries a 6×6 covariance through products and inverses, to positions and
+//!   directions.
+//! - [`formats`] reads and writes what other programs use.
 //!
 //! # Units and signs
 //!
@@ -73,6 +77,7 @@ mod direction;
 mod error;
 mod euler;
 mod file;
+pub mod formats;
 mod frame;
 mod json;
 mod matrix;
@@ -80,6 +85,7 @@ mod named;
 mod position;
 mod quaternion;
 mod tool;
+mod tool_model;
 mod transform;
 pub mod twist;
 mod uncertain;
@@ -92,5 +98,6 @@ pub use json::{MAX_TRANSLATION_M, SCHEMA};
 pub use named::NamedTransform;
 pub use position::Position;
 pub use tool::{SINGULAR_ANGLE_RAD, ToolOrientation, paper_as_printed_euler};
+pub use tool_model::{ToolModel, UNKNOWN_ANGLE_SIGMA_RAD, UncertainToolOrientation};
 pub use transform::Transform;
 pub use uncertain::{UncertainDirection, UncertainPosition, UncertainTransform};

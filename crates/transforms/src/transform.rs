@@ -118,6 +118,10 @@ impl<To: FrameTag, From: FrameTag> Transform<To, From> {
         )
     }
 
+    pub(crate) fn at(isometry: Isometry3<f64>) -> Self {
+        Self::trusted(isometry)
+    }
+
     fn trusted(isometry: Isometry3<f64>) -> Self {
         Self {
             isometry,

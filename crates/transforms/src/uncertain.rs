@@ -93,7 +93,7 @@ impl<To: FrameTag, From: FrameTag> UncertainTransform<To, From> {
         let ad = twist::adjoint(&transform.isometry());
         UncertainTransform {
             transform,
-            covariance: symmetric(ad * self.covariance * ad.transpose()),
+            covariance: symmetric(&(ad * self.covariance * ad.transpose())),
         }
     }
 
@@ -158,7 +158,7 @@ impl<A: FrameTag, B: FrameTag, C: FrameTag> Mul<UncertainTransform<B, C>>
         let ad = twist::adjoint(&self.transform.isometry());
         UncertainTransform {
             transform: self.transform * right.transform,
-            covariance: symmetric(self.covariance + ad * right.covariance * ad.transpose()),
+            covariance: symmetric(&(self.covariance + ad * right.covariance * ad.transpose())),
         }
     }
 }
@@ -212,7 +212,7 @@ pub(crate) fn check(covariance: &Matrix6<f64>) -> Result<(), CovarianceError> {
     Ok(())
 }
 
-fn symmetric(m: Matrix6<f64>) -> Matrix6<f64> {
+fn symmetric(m: &Matrix6<f64>) -> Matrix6<f64> {
     (m + m.transpose()) * 0.5
 }
 

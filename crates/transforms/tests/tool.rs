@@ -59,7 +59,7 @@ fn holds(direction: &Direction<RobotFrame>) -> Result<(), TestCaseError> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(10_000))]
+    #![proptest_config(ProptestConfig::with_cases(100_000))]
 
     #[test]
     fn the_approach_axis_is_the_direction(direction in direction()) {

@@ -208,7 +208,7 @@ fn rust(name: &str, folder: &Path, install: bool) -> Result<Vec<OsString>, Strin
 }
 
 /// Runs a command that makes `what`; the reason is the first line in which it speaks of an error, or its last.
-fn build(what: &str, command: &mut Command) -> Result<(), String> {
+pub(super) fn build(what: &str, command: &mut Command) -> Result<(), String> {
     eprintln!("building {what}");
     let output = command
         .output()

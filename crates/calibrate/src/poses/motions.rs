@@ -32,7 +32,7 @@ pub(crate) fn between(pairs: &[Pair]) -> Vec<Motion> {
 }
 
 /// How far the robot turned among samples.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct MotionSpread {
     /// Largest rotation between two samples, rad.
     pub largest_rad: f64,

@@ -23,7 +23,7 @@ pub(crate) fn solve(motions: &[Motion]) -> Option<Isometry3<f64>> {
     translation(motions, &rotation).map(|t| Isometry3::from_parts(Translation3::from(t), rotation))
 }
 
-/// The translation for a rotation: (R_A − I) t = R t_B − t_A in the sense of least squares.
+/// The translation for a rotation: `(R_A − I) t = R t_B − t_A` in the sense of least squares.
 pub(crate) fn translation(
     motions: &[Motion],
     rotation: &UnitQuaternion<f64>,

@@ -7,6 +7,9 @@ const MAX_STEPS: usize = 50;
 const MAX_ROUNDS: usize = 30;
 const MAX_DAMPING: f64 = 1e10;
 
+/// Twelve unknowns are the price of two samples.
+const USED: f64 = 2.0;
+
 /// The least noise that is believed, so that samples without any do not make each other outliers.
 const FLOOR: Scale = Scale {
     rotation_rad: 1e-5,
@@ -127,7 +130,7 @@ fn finish(pairs: &[Pair], model: Model, noise: Scale, kept: &[bool]) -> Option<F
     let (normal, ..) = normal_equations(pairs, &ones, &model, &noise);
     let inverse = normal.cholesky()?.inverse();
     let of_kept = squared.iter().zip(kept).filter(|(_, k)| **k);
-    let loss = Loss::efficiency_loss(of_kept.map(|(s, _)| *s));
+    let loss = Loss::efficiency_loss(of_kept.map(|(s, _)| *s), USED);
     Some(Fit {
         model,
         noise,
@@ -162,7 +165,7 @@ fn first_noise(pairs: &[Pair], kept: &[bool], model: &Model) -> Scale {
     }
 }
 
-/// The noise by weighted squares; twelve unknowns are the price of two samples.
+/// The noise by weighted squares.
 fn noise_of(pairs: &[Pair], weights: &[f64], model: &Model) -> Scale {
     let n = weights.iter().filter(|w| **w > 0.0).count() as f64;
     let (mut rotation, mut translation) = (0.0, 0.0);
@@ -171,9 +174,9 @@ fn noise_of(pairs: &[Pair], weights: &[f64], model: &Model) -> Scale {
         rotation += weight * offset.rotation.norm_squared();
         translation += weight * offset.translation.norm_squared();
     }
-    let freedom = 3.0 * (n - 2.0).max(1.0);
+    let sigma = |squares| Loss::variance(squares, 3.0, n, USED).sqrt();
     Scale {
-        rotation_rad: (rotation / freedom).sqrt().max(FLOOR.rotation_rad),
-        translation_m: (translation / freedom).sqrt().max(FLOOR.translation_m),
+        rotation_rad: sigma(rotation).max(FLOOR.rotation_rad),
+        translation_m: sigma(translation).max(FLOOR.translation_m),
     }
 }

@@ -8,8 +8,8 @@ type Vector9 = SVector<f64, 9>;
 
 /// Both unknowns of C Q = X M; `None` where the samples do not determine them.
 ///
-/// R_C R_Q R_Mᵀ = R_X for all samples, so that vec R_X and vec R_Q are the left and right singular
-/// vectors of Σ R_M ⊗ R_C for its largest singular value; the translations then follow from
+/// `R_C R_Q R_Mᵀ = R_X` for all samples, so that `vec R_X` and `vec R_Q` are the left and right singular
+/// vectors of `Σ R_M ⊗ R_C` for its largest singular value; the translations then follow from
 /// linear equations.
 ///
 /// Source: Shah 2013, "Solving the robot-world/hand-eye calibration problem using the Kronecker
@@ -42,7 +42,7 @@ pub(crate) fn solve(pairs: &[Pair]) -> Option<Model> {
     translations(pairs, &camera, &target)
 }
 
-/// R_C t_Q − t_X = R_X t_M − t_C in the sense of least squares.
+/// `R_C t_Q − t_X = R_X t_M − t_C` in the sense of least squares.
 fn translations(
     pairs: &[Pair],
     camera: &nalgebra::UnitQuaternion<f64>,

@@ -65,8 +65,8 @@ impl Model {
 
     /// Derivatives of the offset by left perturbations of X and of Q, the rotation first.
     ///
-    /// With both perturbed M̂ = X̂⁻¹ Exp(η) C Q̂, where η = Ad(C) ξ_Q − ξ_X; η = (ω, υ) turns M̂ by
-    /// R_Xᵀ ω and moves its origin by R_Xᵀ (ω × t + υ), t being that of C Q̂.
+    /// With both perturbed `M̂ = X̂⁻¹ Exp(η) C Q̂`, where `η = Ad(C) ξ_Q − ξ_X`; η = (ω, υ) turns M̂ by
+    /// `R_Xᵀ ω` and moves its origin by `R_Xᵀ (ω × t + υ)`, t being that of C Q̂.
     pub(crate) fn jacobian(&self, pair: &Pair, offset: &Offset) -> Jacobian {
         let into_camera = self
             .camera
@@ -111,7 +111,7 @@ impl Model {
     }
 }
 
-/// JᵀWJ and −JᵀWr of weighted samples, in units of the scale.
+/// `JᵀWJ` and `−JᵀWr` of weighted samples, in units of the scale.
 pub(crate) fn normal_equations(
     pairs: &[Pair],
     weights: &[f64],

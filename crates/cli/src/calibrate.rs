@@ -1,0 +1,260 @@
+//! `pomona calibrate`: where the camera is, from samples.
+
+use crate::terminal::{self, FAINT, GOOD, HEADING, REFUSED, Terminal, one_line};
+use anyhow::{anyhow, bail};
+use clap::{Args, ValueEnum};
+use pomona_calibrate::{Kind, Options, Outcome, RECORD_SCHEMA, Record, SampleSet, calibrate};
+use serde::Deserialize;
+use std::fmt::Write as _;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+const EXAMPLES: &str = "\
+Examples:
+  pomona calibrate points.csv --out robot_from_camera.json
+  pomona calibrate poses.json --kind eye-to-hand --fruit-distance 0.9 --out robot_from_camera.json
+  pomona calibrate poses.json --kind eye-in-hand --out flange_from_camera.json
+  pomona pick frames/a --transform robot_from_camera.json --out out
+
+SAMPLES is JSON or CSV, keyed by id: points that the camera saw and the robot touched, or poses of the flange \
+and of a target that the camera saw; docs/calibration.md tells the forms and how to take them. Beside OUT the \
+record of every sample is written as OUT with .report.json. Samples that do not determine the answer are refused.";
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum KindName {
+    /// Point pairs, camera fixed to the base.
+    Points,
+    /// Pose pairs AX = XB, camera fixed to the base, target on the flange.
+    EyeToHand,
+    /// Pose pairs AX = XB, camera on the flange, target fixed.
+    EyeInHand,
+    /// Pose pairs AX = ZB, camera fixed to the base, target on the flange.
+    RobotWorld,
+}
+
+impl KindName {
+    fn kind(self) -> Kind {
+        match self {
+            Self::Points => Kind::Points,
+            Self::EyeToHand => Kind::EyeToHand,
+            Self::EyeInHand => Kind::EyeInHand,
+            Self::RobotWorld => Kind::RobotWorld,
+        }
+    }
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct CalibrateArguments {
+    /// File of samples, JSON or CSV.
+    #[arg(value_name = "SAMPLES")]
+    samples: PathBuf,
+    /// What to calibrate. Default: points for points, eye-to-hand for poses.
+    #[arg(long, value_enum)]
+    kind: Option<KindName>,
+    /// Where to write the transform; a transform's file of ours is replaced.
+    #[arg(short, long, value_name = "FILE")]
+    out: PathBuf,
+    /// Distance from the camera to the fruit, metres: where the error is told.
+    #[arg(long, value_name = "M", default_value_t = Options::default().fruit_distance_m)]
+    fruit_distance: f64,
+    /// How far a sample may be off in place and still support an answer, millimetres.
+    #[arg(long, value_name = "MM", default_value_t = Options::default().translation_tolerance_m * 1e3)]
+    tolerance_mm: f64,
+    /// How far a target may be off in rotation and still support an answer, degrees.
+    #[arg(long, value_name = "DEG", default_value_t = 2.0)]
+    tolerance_deg: f64,
+    /// Seed of the search.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    seed: u64,
+    /// Id of the robot's base frame, in place of the file's. Default: `base_link`.
+    #[arg(long, value_name = "ID")]
+    robot_frame: Option<String>,
+    /// Id of the camera's frame, in place of the file's. Default: `camera_color_optical_frame`.
+    #[arg(long, value_name = "ID")]
+    camera_frame: Option<String>,
+    /// Id of the flange's frame, in place of the file's. Default: flange.
+    #[arg(long, value_name = "ID")]
+    flange_frame: Option<String>,
+    /// Print the record to standard output as JSON in place of the table.
+    #[arg(long)]
+    json: bool,
+}
+
+pub(crate) fn run(arguments: &CalibrateArguments, terminal: Terminal) -> anyhow::Result<()> {
+    let report = report_path(&arguments.out);
+    refuse_foreign(&arguments.out, pomona_transforms::SCHEMA)?;
+    refuse_foreign(&report, RECORD_SCHEMA)?;
+    let mut set = SampleSet::read(&arguments.samples)?;
+    for (given, id) in [
+        (&arguments.robot_frame, &mut set.frames.robot),
+        (&arguments.camera_frame, &mut set.frames.camera),
+        (&arguments.flange_frame, &mut set.frames.flange),
+    ] {
+        if given.is_some() {
+            id.clone_from(given);
+        }
+    }
+    let options = Options {
+        fruit_distance_m: arguments.fruit_distance,
+        translation_tolerance_m: arguments.tolerance_mm * 1e-3,
+        rotation_tolerance_rad: arguments.tolerance_deg.to_radians(),
+        ..Options::default()
+    };
+    let kind = arguments
+        .kind
+        .map_or_else(|| Kind::of(&set.samples), KindName::kind);
+    let outcome = calibrate(&set, kind, &options, arguments.seed)
+        .map_err(|e| anyhow!("{}: {e}", arguments.samples.display()))?;
+    let json = serde_json::to_string_pretty(&outcome.record)? + "\n";
+    write(&outcome, &json, &arguments.out, &report)?;
+    if arguments.json {
+        return terminal::print(&json);
+    }
+    let text = table(&outcome.record, terminal);
+    terminal::print(&format!(
+        "{text}\nwritten to {} and {}\n",
+        arguments.out.display(),
+        report.display()
+    ))
+}
+
+/// `robot_from_camera.json` → `robot_from_camera.report.json`.
+fn report_path(out: &Path) -> PathBuf {
+    let stem = out.file_stem().unwrap_or_default().to_string_lossy();
+    out.with_file_name(format!("{stem}.report.json"))
+}
+
+/// Refuses to replace a file that is not of this schema.
+fn refuse_foreign(path: &Path, schema: &str) -> anyhow::Result<()> {
+    #[derive(Deserialize)]
+    struct Head {
+        schema: String,
+    }
+    if path.is_dir() {
+        bail!("{}: is a folder; name a file by --out", path.display());
+    }
+    let Ok(bytes) = fs::read(path) else {
+        return Ok(());
+    };
+    let head = serde_json::from_slice::<Head>(&bytes).ok();
+    if head.is_some_and(|head| head.schema == schema) {
+        return Ok(());
+    }
+    bail!(
+        "{}: would be replaced, and is no {schema} of this program; name another file by --out",
+        path.display()
+    )
+}
+
+/// Writes both files, or neither.
+fn write(outcome: &Outcome, json: &str, out: &Path, report: &Path) -> anyhow::Result<()> {
+    let hidden = format!(".pomona-{}.part", std::process::id());
+    let part = report.with_file_name(hidden);
+    let refused = |e: std::io::Error| {
+        anyhow!(
+            "{}: cannot be written: {e}; check that the folder exists, is writable and has room",
+            report.display()
+        )
+    };
+    let written = fs::write(&part, json)
+        .map_err(refused)
+        .and_then(|()| Ok(outcome.camera.write(out)?))
+        .and_then(|()| fs::rename(&part, report).map_err(refused));
+    if written.is_err() {
+        // The first error is the one to report.
+        let _ = fs::remove_file(&part);
+    }
+    written
+}
+
+fn table(record: &Record, terminal: Terminal) -> String {
+    let quality = &record.quality;
+    let has_rotation = quality.noise_rotation_rad.is_some();
+    let mut text = String::new();
+    let camera = &record.camera;
+    let title = format!(
+        "{} from {}: {}, {} samples",
+        one_line(&camera.to),
+        one_line(&camera.from),
+        record.kind.name(),
+        quality.samples.len()
+    );
+    text += &(terminal.paint(HEADING, &title) + "\n");
+    let width = quality
+        .samples
+        .iter()
+        .map(|s| one_line(&s.id).chars().count())
+        .chain([2])
+        .max()
+        .unwrap_or(2);
+    let mut header = format!("{:<width$}  {:>8}", "id", "off mm");
+    if has_rotation {
+        header += "  off deg";
+    }
+    header += "   sigmas  left out mm  shift at fruit mm";
+    text += &(terminal.paint(FAINT, &header) + "\n");
+    for sample in &quality.samples {
+        let _ = write!(
+            text,
+            "{:<width$}  {:>8.2}",
+            one_line(&sample.id),
+            sample.translation_m * 1e3
+        );
+        if let Some(rotation) = sample.rotation_rad {
+            let _ = write!(text, "  {:>7.3}", rotation.to_degrees());
+        }
+        let _ = write!(text, "  {:>7.1}  ", sample.sigmas);
+        match (&sample.rejected, &sample.left_out) {
+            (Some(rejected), _) => text += &terminal.paint(REFUSED, &rejected.reason),
+            (None, Some(left)) => {
+                let _ = write!(
+                    text,
+                    "{:>11.2}  {:>17.2}",
+                    left.translation_m * 1e3,
+                    left.shift_at_fruit_m * 1e3
+                );
+            }
+            (None, None) => text += "          -                  -",
+        }
+        text.push('\n');
+    }
+    text.push('\n');
+    text += &summary(record, terminal);
+    for warning in &quality.warnings {
+        text += &(terminal.paint(REFUSED, &format!("warning: {warning}")) + "\n");
+    }
+    text
+}
+
+fn summary(record: &Record, terminal: Terminal) -> String {
+    let (camera, quality) = (&record.camera, &record.quality);
+    let list = |numbers: &[f64], digits: usize| {
+        let numbers = numbers.iter().map(|n| format!("{n:.digits$}"));
+        numbers.collect::<Vec<_>>().join(" ")
+    };
+    let mm = |m: &[f64; 3]| m.map(|c| c * 1e3);
+    let mut text = format!(
+        "translation mm   {}  (sd {})\nquaternion xyzw  {}  (sd deg {})\n",
+        list(&mm(&camera.translation_m), 2),
+        list(&mm(&camera.sigma_translation_m), 2),
+        list(&camera.quaternion_xyzw, 6),
+        list(&camera.sigma_rotation_rad.map(f64::to_degrees), 3)
+    );
+    let rotation = quality.noise_rotation_rad.map_or_else(String::new, |r| {
+        format!(" and {:.3} degrees", r.to_degrees())
+    });
+    let _ = writeln!(
+        text,
+        "noise            {:.2} mm{rotation} in each component",
+        quality.noise_translation_m * 1e3
+    );
+    let fruit = format!(
+        "error at {:.2} m  {:.2} mm (sd from the covariance), {:.2} mm (leaving one out; largest {:.2})",
+        quality.fruit_distance_m,
+        quality.sigma_at_fruit_m * 1e3,
+        quality.leave_one_out.sigma_at_fruit_m * 1e3,
+        quality.leave_one_out.largest_shift_at_fruit_m * 1e3
+    );
+    text + &terminal.paint(GOOD, &fruit) + "\n"
+}

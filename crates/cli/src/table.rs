@@ -184,6 +184,7 @@ pub(crate) mod tests {
                 foot: None,
                 direction: picked.then_some([0.0, -0.8, 0.6]),
                 robot: None,
+                plan: pomona::PlanRecord::default(),
                 timing_ms: TimingRecord {
                     total: 1.25,
                     ..TimingRecord::default()

@@ -75,6 +75,7 @@ mod tests {
             foot: None,
             direction: None,
             robot: None,
+            plan: pomona::PlanRecord::default(),
             timing_ms: TimingRecord::default(),
         }
     }

@@ -1,5 +1,5 @@
 use crate::{
-    AppleRecord, BoxRecord, BranchRecord, Config, FrameRecord, Pick, PickError, Record,
+    AppleRecord, BoxRecord, BranchRecord, Config, FrameRecord, Pick, PickError, PlanRecord, Record,
     RobotRecord, SCHEMA, Status, TimingRecord, paper, seed::apple_rng, surroundings::window_of,
 };
 use nalgebra::{Point3, Vector3};
@@ -124,6 +124,7 @@ impl Picker {
             foot: None,
             direction: None,
             robot: None,
+            plan: PlanRecord::default(),
             timing_ms: TimingRecord::default(),
         };
         let mut evidence = Evidence::default();

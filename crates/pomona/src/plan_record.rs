@@ -115,7 +115,7 @@ pub struct PathRecord {
     pub samples: Vec<SampleRecord>,
 }
 
-/// One quintic: position = Σ coefficients[k] (t − start_s)ᵏ.
+/// One quintic: the position is Σ `coefficients[k]` (t − `start_s`)ᵏ.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PieceRecord {
     /// `transit`, `approach` or `retreat`.

@@ -1,6 +1,5 @@
 use nalgebra::{Isometry3, Point3, Quaternion, Translation3, UnitQuaternion};
-use pomona::{Evidence, Outcome, Pick, RobotFromCamera, Status};
-use pomona_approach::Gripper;
+use pomona::{Evidence, Gripper, Outcome, Pick, RobotFromCamera, Status};
 use pomona_cloud::{ColorImage, Frame, PixelBox};
 use pomona_geometry::{Capsule, Segment, Sphere};
 use pomona_view::{AppleMark, Overlay, ViewError};

@@ -1,4 +1,4 @@
-//! The messages, each with all the fields of its definition in their order, unless it says otherwise.
+//! The messages, each with all the fields of its definition, unless it says otherwise.
 
 use nalgebra::Isometry3;
 use serde::Serialize;

@@ -2,7 +2,7 @@ use serde::Serialize;
 use serde_json::Value;
 use std::fmt::Write;
 
-/// A message as YAML: block style, lists of numbers in one line.
+/// A message as YAML: block style, lists of numbers in one line, fields by their names' order.
 ///
 /// Every float has a point and no exponent, nine decimals: YAML 1.1, which ROS's tools read, takes
 /// `1e-05` for a string. Strings stand in double quotes. What is not finite, and what is no map at

@@ -7,16 +7,29 @@ use crate::{ClearanceConfig, Path, Stage};
 /// Intervals of a piece over which its speed is bounded by one number.
 const INTERVALS: usize = 12;
 
+/// How far ahead a look sees, in cutoffs: where nothing is near, the next look is that less one cutoff
+/// away.
+const LOOK_AHEAD: f64 = 3.0;
+/// The share of a slack by which it may be known too small, where that is more than the resolution.
+const SHARE: f64 = 0.3;
+
 /// The hit with the least slack, and when.
 pub(crate) type TimedHit = (Hit, f64);
+
+/// What the slack is nowhere under, where the least look is `least`.
+pub(crate) fn floor(least: f64, resolution: f64) -> f64 {
+    (least - resolution).min(least * (1.0 - SHARE))
+}
 
 /// What comes nearest during the transit.
 ///
 /// Conservative advancement (Mirtich 1996, Section 2.3.2): where the slack is s, no point of the gripper
 /// can use it up before it has moved by s. So the next look may be that much later, by a bound on the
-/// speed of the fastest point. Slacks are wanted to within a resolution ε, so a look is taken
-/// whenever the least slack so far, less ε, might be undercut. A slack under ε is a collision:
-/// then all slacks between two looks are at least 0.
+/// speed of the fastest point. Slacks are wanted to within a resolution ε or a
+/// share of the slack, so a look is taken whenever the [`floor`] of the least slack so far (the cutoff,
+/// while all are above it) might be undercut. A slack under ε is a collision:
+/// then all slacks between two looks are at least 0. Where any collision will do for an answer, the least
+/// slack is not looked for, only whether one is negative.
 ///
 /// # Errors
 ///
@@ -30,6 +43,7 @@ pub(crate) fn transit(
     config: &ClearanceConfig,
 ) -> Result<Option<TimedHit>, TimedHit> {
     let resolution = config.resolution_m;
+    let ahead = LOOK_AHEAD * config.cutoff_m;
     let mut least: Option<TimedHit> = None;
     let least_slack = |least: &Option<TimedHit>| least.map_or(config.cutoff_m, |(h, _)| h.slack());
     let mut allowance = 0.0;
@@ -53,8 +67,8 @@ pub(crate) fn transit(
                 first = false;
                 let pose = path.sample(time).pose();
                 let bodies = open.map(|body| body.moved(&pose));
-                let hit = scene.nearest(&Shape::new(&bodies), view, config, config.cutoff_m);
-                let slack = hit.map_or(config.cutoff_m, |h| h.slack());
+                let hit = scene.nearest(&Shape::new(&bodies), view, config, ahead);
+                let slack = hit.map_or(ahead, |h| h.slack());
                 if let Some(hit) = hit
                     && slack < least_slack(&least)
                 {
@@ -63,7 +77,11 @@ pub(crate) fn transit(
                 if slack < resolution {
                     return hit.map_or(Ok(least), |hit| Err((hit, time)));
                 }
-                allowance = slack - least_slack(&least) + resolution;
+                allowance = if view.any {
+                    slack
+                } else {
+                    slack - floor(least_slack(&least), resolution)
+                };
             }
         }
     }

@@ -39,8 +39,9 @@ impl Stage {
 pub struct Clearance {
     /// Signed distance of the surfaces, negative where they overlap.
     ///
-    /// Of a path that is free it is a lower bound, less than the distance itself by no more than the
-    /// configured resolution. Where nothing comes within the configured cutoff, it is the cutoff.
+    /// Of a path that is free it is a lower bound: too small by no more than the configured resolution
+    /// or 0.3 of what is left beyond the margin. Where nothing comes within the configured cutoff, it
+    /// is 0.7 of the cutoff.
     pub distance_m: f64,
     /// The least distance that was asked for from this obstacle.
     pub margin_m: f64,

@@ -114,9 +114,9 @@ pub struct ClearanceConfig {
     pub cloud_margin_m: f64,
     /// Radius of a branch whose fit gives none. Default 0.006. More: bears thick branches.
     pub branch_radius_m: f64,
-    /// Nothing farther than this is looked for. Default 0.060. More: slower, larger figures.
+    /// Clearances beyond this are not told apart. Default 0.025. More: slower, larger figures.
     pub cutoff_m: f64,
-    /// Clearances are known to within this. Default 0.002. Less: tighter ways are found, slower in
+    /// Small clearances are known to within this. Default 0.002. Less: tighter ways are found, slower in
     /// proportion.
     pub resolution_m: f64,
     /// Side of the cells in which points of the cloud are taken together, as a ball about them.
@@ -140,7 +140,7 @@ impl Default for ClearanceConfig {
             apple_margin_m: 0.003,
             cloud_margin_m: 0.0,
             branch_radius_m: 0.006,
-            cutoff_m: 0.060,
+            cutoff_m: 0.025,
             resolution_m: 0.002,
             voxel_m: 0.005,
             voxel_min_points: 3,

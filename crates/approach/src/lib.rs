@@ -67,8 +67,8 @@
 //!   3D Vision", Agriculture 12(8), 1170, doi 10.3390/agriculture12081170: the direction of
 //!   approach, Figure 3b.
 //! - Flash, Hogan 1985, "The coordination of arm movements", The Journal of Neuroscience 5(7),
-//!   doi 10.1523/JNEUROSCI.05-07-01688.1985: quintics minimise the jerk.
-//! - Mirtich 1996, "Impulse-based Dynamic Simulation of Rigid Body Systems", PhD thesis, University of
+//!   doi `10.1523/JNEUROSCI.05-07-01688.1985`: quintics minimise the jerk.
+//! - Mirtich 1996, "Impulse-based Dynamic Simulation of Rigid Body Systems", thesis, University of
 //!   California, Section 2.3.2: conservative advancement.
 //! - Ericson 2005, "Real-Time Collision Detection", Section 5.1.9: distance of two segments.
 //! - Farouki 2012, "The Bernstein polynomial basis", CAGD 29(6), 379–419,

@@ -76,7 +76,7 @@ impl Planner {
     /// The first free way to the target.
     ///
     /// Directions are tried in their order; each one straight, then tilted by half and by all of its
-    /// uncertainty; each of these with the allowed rolls; each of these directly and by a detour.
+    /// uncertainty; each of these with the allowed rolls, directly; without a tilt also by a detour.
     ///
     /// # Errors
     ///
@@ -114,7 +114,8 @@ impl Planner {
         let mut first = None;
         let mut tried = 0;
         for (candidate, nominal) in target.directions.iter().enumerate() {
-            for direction in self.tilts(nominal, target.direction_uncertainty_rad) {
+            let tilts = self.tilts(nominal, target.direction_uncertainty_rad);
+            for (tilt, direction) in tilts.into_iter().enumerate() {
                 for rotation in self.rotations(&direction, target.branch.as_ref(), start) {
                     tried += 1;
                     let way = Way {
@@ -123,10 +124,12 @@ impl Planner {
                         apple,
                         number: target.apple,
                         direction,
+                        tilted: tilt > 0,
                         rotation,
                         start,
                     };
-                    match way.free(gone) {
+                    // What the first way collides with is reported; of the others only whether they do.
+                    match way.free(gone, first.is_some()) {
                         Ok(mut approach) => {
                             approach.candidate = candidate;
                             approach.tilt_rad = direction.angle_to(nominal);
@@ -157,6 +160,7 @@ impl Planner {
             target_counts: false,
             gone: &gone,
             wood_counts: false,
+            any: false,
         };
         let apple = *scene.apples().get(approach.apple)?;
         let straight = self.straight(approach.grasp, approach.standoff_m, apple);
@@ -251,11 +255,22 @@ impl Planner {
             ..*view
         };
         let (open, radius) = (&self.open, self.radius_about_tool);
+        // Most ways that collide do so on the transit, and looking for the least slack takes longer.
+        let quick = View {
+            any: true,
+            ..before
+        };
+        advance::transit(path, open, radius, scene, &quick, config)
+            .map_err(|(hit, time)| clearance_of(&hit, time, Stage::Transit, 0.0))?;
+        let before = View {
+            any: false,
+            ..before
+        };
         let passed = advance::transit(path, open, radius, scene, &before, config)
             .map_err(|(hit, time)| clearance_of(&hit, time, Stage::Transit, 0.0))?;
         let passed = passed.map(|(hit, time)| {
-            // The least look is above the least slack by up to the resolution.
-            clearance_of(&hit, time, Stage::Transit, config.resolution_m)
+            let less = hit.slack() - advance::floor(hit.slack(), config.resolution_m);
+            clearance_of(&hit, time, Stage::Transit, less)
         });
         let nearest = near
             .map(timed)
@@ -263,7 +278,8 @@ impl Planner {
             .chain(passed)
             .min_by(|a, b| a.slack_m().total_cmp(&b.slack_m()));
         Ok(nearest.unwrap_or_else(|| Clearance {
-            distance_m: config.cutoff_m + config.cloud_margin_m.min(0.0),
+            distance_m: advance::floor(config.cutoff_m, config.resolution_m)
+                + config.cloud_margin_m.min(0.0),
             margin_m: 0.0,
             obstacle: None,
             point_m: path.sample(0.0).position.into(),
@@ -291,6 +307,7 @@ struct Way<'a> {
     apple: Sphere,
     number: usize,
     direction: Direction<RobotFrame>,
+    tilted: bool,
     rotation: UnitQuaternion<f64>,
     start: &'a StartPose,
 }
@@ -302,7 +319,7 @@ impl Way<'_> {
     }
 
     /// The approach on this way where it is reached and free.
-    fn free(&self, gone: &[bool]) -> Result<Approach, Refusal> {
+    fn free(&self, gone: &[bool], any: bool) -> Result<Approach, Refusal> {
         let config = &self.planner.config;
         self.comes_from_the_front()?;
         let clearance = &config.clearance;
@@ -324,6 +341,7 @@ impl Way<'_> {
             target_counts: false,
             gone,
             wood_counts: true,
+            any,
         };
         let mut first = None;
         for via in self.detours(&pre_grasp) {
@@ -414,10 +432,13 @@ impl Way<'_> {
         (0..REACH_SAMPLES).try_for_each(|i| self.reached(&path.sample(i as f64 * step).position))
     }
 
-    /// The places between start and pre-grasp to try: none; then one before the fruit, from
+    /// The places between start and pre-grasp to try: none; then, without a tilt, one before the fruit, from
     /// where the base looks.
     fn detours(&self, pre_grasp: &Isometry3<f64>) -> Vec<Vec<Point3<f64>>> {
         let mut detours = vec![Vec::new()];
+        if self.tilted {
+            return detours;
+        }
         let length = self.planner.config.search.detour_m;
         let shoulder = Point3::from(self.planner.config.reach.shoulder_m);
         let place = Point3::from(pre_grasp.translation.vector);

@@ -77,8 +77,13 @@ impl PointTree {
     }
 
     /// Distance from the nearest ball to the nearest of `bodies` where it is under `bound`, and the
-    /// ball's centre.
-    pub(crate) fn nearest(&self, bodies: &[Body], bound: f64) -> Option<(f64, Point3<f64>)> {
+    /// ball's centre. The first ball found nearer than `enough` ends the search.
+    pub(crate) fn nearest(
+        &self,
+        bodies: &[Body],
+        bound: f64,
+        enough: f64,
+    ) -> Option<(f64, Point3<f64>)> {
         let mut best = None;
         let mut bound = bound;
         // As deep as a balanced tree of 2³² leaves.
@@ -100,6 +105,9 @@ impl PointTree {
                         bound = d;
                         best = Some((d, ball.center));
                     }
+                }
+                if bound < enough {
+                    break;
                 }
                 continue;
             }
@@ -221,7 +229,7 @@ mod tests {
             let body = Body::capsule(a.into(), Point3::new(0.1, 0.2, 0.3), 0.02);
             let balls = cells(&points, 0.03, 1);
             let least = balls.iter().map(|b| distance(&[body], b)).fold(f64::INFINITY, f64::min);
-            let found = PointTree::of_balls(balls).nearest(&[body], bound);
+            let found = PointTree::of_balls(balls).nearest(&[body], bound, f64::NEG_INFINITY);
             prop_assert_eq!(found.map(|f| f.0), (least < bound).then_some(least));
         }
 
@@ -230,7 +238,7 @@ mod tests {
             prop_assume!(!points.is_empty());
             let body = Body::capsule(a.into(), Point3::new(0.1, 0.2, 0.3), 0.02);
             let least = points.iter().map(|p| body.distance_to_point(p)).fold(f64::INFINITY, f64::min);
-            let (d, _) = PointTree::of_points(&points, 0.02, 1).nearest(&[body], 10.0).unwrap();
+            let (d, _) = PointTree::of_points(&points, 0.02, 1).nearest(&[body], 10.0, f64::NEG_INFINITY).unwrap();
             prop_assert!(d <= least + 1e-12 && d >= least - 0.02 * 3.0_f64.sqrt(), "{d} {least}");
         }
     }
@@ -241,6 +249,6 @@ mod tests {
         assert!(PointTree::of_points(&stray, 0.01, 2).is_empty());
         assert!(PointTree::of_points(&stray, 0.0, 1).is_empty());
         assert_eq!(PointTree::of_points(&stray, 0.01, 1).len(), 1);
-        assert!(PointTree::default().nearest(&[], 1.0).is_none());
+        assert!(PointTree::default().nearest(&[], 1.0, 0.0).is_none());
     }
 }

@@ -34,7 +34,7 @@ impl<const D: usize> State<D> {
 /// A polynomial of degree five in time: p(t) = Σ cₖ tᵏ, with t from 0 to its duration in seconds.
 ///
 /// It is the curve of least squared jerk between two states (Flash and Hogan 1985,
-/// doi 10.1523/JNEUROSCI.05-07-01688.1985).
+/// doi `10.1523/JNEUROSCI.05-07-01688.1985`).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Quintic<const D: usize> {
     /// c₀ to c₅; cₖ has the unit of the position per secondᵏ.

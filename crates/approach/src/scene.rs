@@ -153,9 +153,16 @@ pub(crate) struct View<'a> {
     pub(crate) gone: &'a [bool],
     /// Whether branches and the cloud count.
     pub(crate) wood_counts: bool,
+    /// Whether any collision will do for an answer, in place of the nearest thing.
+    pub(crate) any: bool,
 }
 
 impl View<'_> {
+    /// The slack under which the search may end.
+    fn enough(&self) -> f64 {
+        if self.any { 0.0 } else { f64::NEG_INFINITY }
+    }
+
     fn shows(&self, apple: usize) -> bool {
         !self.gone.get(apple).copied().unwrap_or(false)
     }
@@ -171,7 +178,7 @@ impl Scene {
         bound: f64,
     ) -> Option<Hit> {
         let mut best: Option<Hit> = None;
-        let mut bound = bound;
+        let (mut bound, enough) = (bound, view.enough());
         let mut take = |distance: f64, margin: f64, obstacle, point, bound: &mut f64| {
             *bound = distance - margin;
             best = Some(Hit {
@@ -205,12 +212,12 @@ impl Scene {
                 continue;
             }
             if let Some((distance, point)) =
-                self.on_apples[number].nearest(shape.bodies, bound + margin)
+                self.on_apples[number].nearest(shape.bodies, bound + margin, enough + margin)
             {
                 take(distance, margin, obstacle, point, &mut bound);
             }
         }
-        if !view.wood_counts {
+        if !view.wood_counts || bound < enough {
             return best;
         }
         let margin = config.branch_margin_m;
@@ -228,8 +235,14 @@ impl Scene {
                 );
             }
         }
+        if bound < enough {
+            return best;
+        }
         let margin = config.cloud_margin_m;
-        if let Some((distance, point)) = self.rest.nearest(shape.bodies, bound + margin) {
+        if let Some((distance, point)) =
+            self.rest
+                .nearest(shape.bodies, bound + margin, enough + margin)
+        {
             take(distance, margin, Obstacle::Cloud, point, &mut bound);
         }
         best
@@ -262,7 +275,9 @@ impl Scene {
             }
         };
         let far = f64::INFINITY;
-        let before_tree = |tree: &PointTree| tree.nearest(still.bodies, far).map_or(far, |b| b.0);
+        let all = f64::NEG_INFINITY;
+        let before_tree =
+            |tree: &PointTree| tree.nearest(still.bodies, far, all).map_or(far, |b| b.0);
         let margin = config.apple_margin_m;
         for (number, apple) in self.apples.iter().enumerate() {
             if number == view.target || !view.shows(number) {
@@ -279,7 +294,7 @@ impl Scene {
                 judge(margin, before - radius, after - radius, obstacle, point);
             }
             let tree = &self.on_apples[number];
-            if let Some((after, point)) = tree.nearest(moved.bodies, margin) {
+            if let Some((after, point)) = tree.nearest(moved.bodies, margin, all) {
                 let before = before_tree(tree);
                 judge(margin, before, after, Obstacle::Apple(number), point);
             }
@@ -297,7 +312,7 @@ impl Scene {
             }
         }
         let margin = config.cloud_margin_m;
-        if let Some((after, point)) = self.rest.nearest(moved.bodies, margin) {
+        if let Some((after, point)) = self.rest.nearest(moved.bodies, margin, all) {
             let before = before_tree(&self.rest);
             judge(margin, before, after, Obstacle::Cloud, point);
         }

@@ -20,7 +20,13 @@ fn is_ours(name: &str) -> bool {
         let id = name.strip_prefix("apple-")?.strip_suffix(".ply")?;
         id.parse::<usize>().ok()
     };
-    name == PICKS || name == PICTURE || is_cloud(name).is_some()
+    let is_message = |name: &str| {
+        let message = name
+            .strip_prefix("ros-")
+            .and_then(|n| n.strip_suffix(".yaml"));
+        message.is_some_and(|n| !n.is_empty())
+    };
+    name == PICKS || name == PICTURE || is_cloud(name).is_some() || is_message(name)
 }
 
 /// Refuses a folder in which our files would replace somebody else's.

@@ -1,5 +1,6 @@
 use crate::apple_cloud::{AppleClouds, CloudChoice};
 use crate::output_folder::{OutputFolder, PICKS, PICTURE, cloud_name, refuse_foreign, write_text};
+use crate::picture::RobotView;
 use crate::settings::SettingsArguments;
 use crate::summary::{plural, summary};
 use crate::table::table;
@@ -7,7 +8,7 @@ use crate::terminal::{self, Terminal};
 use crate::{picture, progress};
 use anyhow::{anyhow, bail};
 use clap::Args;
-use pomona::{Outcome, Picker, Record, RobotFromCamera};
+use pomona::{ApproachConfig, Outcome, Picker, Record, Robot, RobotFromCamera, RobotPlan, ros};
 use pomona_cloud::{Frame, read_boxes};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -19,6 +20,7 @@ Examples:
   pomona pick frames/a frames/b --out out             out/a/... and out/b/...
   pomona pick frames/a --boxes detections.json --out out
   pomona pick frames/a --transform robot_from_camera.json --out out
+  pomona pick frames/a --transform robot_from_camera.json --robot robot.toml --ros --out out
   pomona pick frames/a --radius-max-mm 60 --set paper.shell_outer=2.5 --out out
   pomona pick frames/* --out out --json | jq '.[].picks[].direction'
 
@@ -49,6 +51,13 @@ pub(crate) struct PickArguments {
     /// Transform from the camera's to the robot's frame; adds the answers in the robot's frame.
     #[arg(long, value_name = "FILE")]
     transform: Option<PathBuf>,
+    /// Plan how a robot with these settings (see `pomona config --robot`) gets to each apple and in
+    /// which order; adds gripper, approach, clearance and order to the record, and the path to the picture.
+    #[arg(long, value_name = "FILE", requires = "transform")]
+    robot: Option<PathBuf>,
+    /// Write the plan as messages of ROS 2 and `MoveIt` too, ros-*.yaml for `ros2 topic pub`.
+    #[arg(long, requires = "robot")]
+    ros: bool,
     /// Print the record to standard output in place of the table: one JSON object for one frame, an
     /// array for several.
     #[arg(long)]
@@ -73,6 +82,11 @@ pub(crate) fn run(arguments: &PickArguments, terminal: Terminal) -> anyhow::Resu
             .transform
             .as_ref()
             .map(RobotFromCamera::read)
+            .transpose()?,
+        robot: arguments
+            .robot
+            .as_ref()
+            .map(|path| Robot::new(ApproachConfig::read(path)?))
             .transpose()?,
         arguments,
         terminal,
@@ -181,6 +195,7 @@ fn folder_name(frame: &Path) -> anyhow::Result<PathBuf> {
 struct Run<'a> {
     picker: Picker,
     transform: Option<RobotFromCamera>,
+    robot: Option<Robot>,
     arguments: &'a PickArguments,
     terminal: Terminal,
 }
@@ -195,22 +210,43 @@ impl Run<'_> {
         }
         log::info!("{}: read in {:.0?}", frame.id, start.elapsed());
         let start = Instant::now();
-        let outcome = self
+        let mut outcome = self
             .picker
             .pick(&frame, self.arguments.seed, self.transform.as_ref())?;
         log::info!("{}: picked in {:.0?}", frame.id, start.elapsed());
         let start = Instant::now();
-        self.write(job, &frame, &outcome)?;
+        let plan = match (&self.robot, &self.transform) {
+            (Some(robot), Some(transform)) => Some(robot.plan(&frame, &mut outcome, transform)?),
+            _ => None,
+        };
+        if plan.is_some() {
+            log::info!("{}: planned in {:.1?}", frame.id, start.elapsed());
+        }
+        let start = Instant::now();
+        self.write(job, &frame, &outcome, plan.as_ref())?;
         log::info!("{}: written in {:.0?}", frame.id, start.elapsed());
         Ok(outcome.record)
     }
 
-    fn write(&self, job: &Job, frame: &Frame, outcome: &Outcome) -> anyhow::Result<()> {
+    fn robot_view(&self) -> Option<RobotView<'_>> {
+        Some(RobotView {
+            robot_from_camera: self.transform.as_ref()?,
+            gripper: &self.robot.as_ref()?.config().gripper,
+        })
+    }
+
+    fn write(
+        &self,
+        job: &Job,
+        frame: &Frame,
+        outcome: &Outcome,
+        plan: Option<&RobotPlan>,
+    ) -> anyhow::Result<()> {
         let chosen = self.arguments.clouds.of(outcome)?;
         let picture = if self.arguments.no_picture {
             None
         } else {
-            Some(picture::draw(frame, outcome)?)
+            Some(picture::draw(frame, outcome, self.robot_view().as_ref())?)
         };
         let clouds = if chosen.is_empty() {
             None
@@ -224,6 +260,11 @@ impl Run<'_> {
             PICKS,
             &(serde_json::to_string_pretty(&outcome.record)? + "\n"),
         )?;
+        if let (Some(robot), Some(plan), true) = (&self.robot, plan, self.arguments.ros) {
+            for file in ros::files(plan, robot.config()) {
+                write_text(&output, &file.name, &file.text)?;
+            }
+        }
         if let Some(picture) = picture {
             picture.write(output.file(PICTURE))?;
         }

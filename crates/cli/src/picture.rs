@@ -1,20 +1,30 @@
-use nalgebra::Point3;
-use pomona::{Evidence, Outcome, Pick, Status};
+use nalgebra::{Isometry3, Point3, Quaternion, Translation3, UnitQuaternion};
+use pomona::{Evidence, Gripper, Outcome, Pick, RobotFromCamera, Status};
 use pomona_cloud::{ColorImage, Frame, PixelBox};
-use pomona_geometry::Sphere;
+use pomona_geometry::{Capsule, Segment, Sphere};
 use pomona_view::{AppleMark, Overlay, ViewError};
 
+/// Brings what a robot plans back into the picture.
+pub(crate) struct RobotView<'a> {
+    pub(crate) robot_from_camera: &'a RobotFromCamera,
+    pub(crate) gripper: &'a Gripper,
+}
+
 /// The frame's colour image with its answers drawn over it.
-pub(crate) fn draw(frame: &Frame, outcome: &Outcome) -> Result<ColorImage, ViewError> {
+pub(crate) fn draw(
+    frame: &Frame,
+    outcome: &Outcome,
+    robot: Option<&RobotView<'_>>,
+) -> Result<ColorImage, ViewError> {
     let picks = outcome.record.picks.iter();
     let marks: Vec<AppleMark> = picks
         .zip(&outcome.evidence)
-        .map(|(p, e)| mark(p, e))
+        .map(|(p, e)| mark(p, e, robot))
         .collect();
     Overlay::new(&frame.color, &frame.camera).draw(&marks)
 }
 
-fn mark<'a>(pick: &Pick, evidence: &'a Evidence) -> AppleMark<'a> {
+fn mark<'a>(pick: &Pick, evidence: &'a Evidence, robot: Option<&RobotView<'_>>) -> AppleMark<'a> {
     let b = &pick.pixel_box;
     let bounds = PixelBox {
         name: b.name.clone(),
@@ -36,5 +46,44 @@ fn mark<'a>(pick: &Pick, evidence: &'a Evidence) -> AppleMark<'a> {
     if pick.status != Status::Picked {
         mark.refused = Some(pick.status.name().replace('_', " "));
     }
+    if let Some(robot) = robot {
+        robot.add(pick, &mut mark);
+    }
     mark
+}
+
+impl RobotView<'_> {
+    /// The path's samples, the gripper at the apple, the rank in the order; the reason where there is none.
+    fn add(&self, pick: &Pick, mark: &mut AppleMark<'_>) {
+        let camera_from_robot = self.robot_from_camera.transform.inverse().isometry();
+        let plan = &pick.plan;
+        let way = plan.approach.as_ref().and_then(|a| a.way.as_ref());
+        if let Some(way) = way {
+            let places = way.path.samples.iter().map(|s| Point3::from(s.position));
+            mark.path = places.map(|place| camera_from_robot * place).collect();
+        }
+        if let Some(gripper) = &plan.gripper {
+            let [x, y, z, w] = gripper.tool.quaternion_xyzw;
+            let rotation = UnitQuaternion::new_normalize(Quaternion::new(w, x, y, z));
+            let place = Translation3::from(gripper.tool.position);
+            let pose = camera_from_robot * Isometry3::from_parts(place, rotation);
+            mark.gripper = self
+                .gripper
+                .capsules()
+                .iter()
+                .filter_map(|(start, end, radius)| {
+                    Capsule::new(Segment::new(pose * start, pose * end)?, *radius)
+                })
+                .collect();
+        }
+        let turn = match (&plan.order, &plan.approach) {
+            (Some(order), _) => format!("turn {}", order.rank + 1),
+            (None, Some(approach)) => approach.status.replace('_', " "),
+            _ => return,
+        };
+        mark.caption = Some(match mark.caption.take() {
+            Some(caption) => format!("{caption}, {turn}"),
+            None => turn,
+        });
+    }
 }

@@ -192,6 +192,7 @@ pub(crate) mod tests {
                 candidates: Vec::new(),
                 view_from: None,
                 robot: None,
+                plan: pomona::PlanRecord::default(),
                 timing_ms: TimingRecord {
                     total: 1.25,
                     ..TimingRecord::default()

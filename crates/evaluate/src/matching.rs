@@ -79,6 +79,7 @@ mod tests {
             candidates: Vec::new(),
             view_from: None,
             robot: None,
+            plan: pomona::PlanRecord::default(),
             timing_ms: TimingRecord::default(),
         }
     }

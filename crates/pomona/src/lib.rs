@@ -27,6 +27,8 @@
 //!   the random numbers of one depend on (run seed, frame, apple) and nothing else.
 //! - An apple without an answer is no error: it has a [`Status`] that says why, and what is
 //!   known stays in its record.
+//! - A [`Robot`], where there is one, plans from an outcome how its gripper gets to each apple and in
+//!   which order, and adds that to the record; [`ros`] writes it as messages of ROS 2 and `MoveIt`.
 //! - The method is `paper`: Gao et al. 2022, with the settings of [`PaperConfig`].
 //!
 //! # Frames and units
@@ -48,16 +50,25 @@ mod config;
 mod error;
 mod paper;
 mod picker;
+mod plan_record;
 mod record;
+mod robot;
 mod robust;
+pub mod ros;
 mod seed;
 mod surroundings;
 
 pub use config::{Config, ConfigError, Method, PaperConfig};
 pub use error::PickError;
 pub use picker::{Evidence, Outcome, Picker, RobotFromCamera};
+pub use plan_record::{
+    ApproachRecord, ClearanceRecord, GripperRecord, OrderRecord, PathRecord, PieceRecord,
+    PlanRecord, PoseRecord, SampleRecord, WayRecord,
+};
+pub use pomona_approach::{ApproachConfig, Gripper};
 pub use record::{
     AppleRecord, BoxRecord, BranchRecord, CandidateRecord, FrameRecord, Pick, Record, RobotRecord,
     SCHEMA, Status, TimingRecord,
 };
+pub use robot::{Robot, RobotPlan};
 pub use robust::{RobustConfig, SensorPreset};

@@ -1,6 +1,6 @@
 use crate::{
-    AppleRecord, BoxRecord, BranchRecord, Config, FrameRecord, Method, Pick, PickError, Record,
-    RobotRecord, SCHEMA, Status, TimingRecord, paper, robust, seed::apple_rng,
+    AppleRecord, BoxRecord, BranchRecord, Config, FrameRecord, Method, Pick, PickError, PlanRecord,
+    Record, RobotRecord, SCHEMA, Status, TimingRecord, paper, robust, seed::apple_rng,
     surroundings::window_of,
 };
 use nalgebra::{Point3, Vector3};
@@ -136,6 +136,7 @@ impl Picker {
             candidates: Vec::new(),
             view_from: None,
             robot: None,
+            plan: PlanRecord::default(),
             timing_ms: TimingRecord::default(),
         };
         let mut evidence = Evidence::default();

@@ -1,3 +1,4 @@
+use crate::PlanRecord;
 use pomona_cloud::PixelBox;
 use serde::{Deserialize, Serialize};
 
@@ -107,6 +108,9 @@ pub struct Pick {
     /// Position and direction in the robot's frame, where a transform was given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub robot: Option<RobotRecord>,
+    /// How a robot gets there, where one was configured: `gripper`, `approach`, `clearance`, `order`.
+    #[serde(flatten)]
+    pub plan: PlanRecord,
     /// How long it took.
     pub timing_ms: TimingRecord,
 }

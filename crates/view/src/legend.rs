@@ -1,6 +1,7 @@
 use crate::arrow::draw_arrow;
 use crate::boxes::{draw_box, draw_refused_box};
 use crate::canvas::{Canvas, Point};
+use crate::gripper::{draw_gripper, draw_path};
 use crate::ink::Ink;
 use crate::layout::Plate;
 use crate::palette;
@@ -18,6 +19,8 @@ pub(crate) enum Entry {
     Direction,
     Towards,
     Away,
+    Path,
+    Gripper,
     /// So many labels found no room.
     LeftOut(usize),
 }
@@ -33,6 +36,8 @@ impl Entry {
             Self::Direction => "picking direction".into(),
             Self::Towards => "towards the camera".into(),
             Self::Away => "away from the camera".into(),
+            Self::Path => "path".into(),
+            Self::Gripper => "gripper".into(),
             Self::LeftOut(count) => format!("{count} labels left out"),
         }
     }
@@ -144,6 +149,18 @@ impl Legend {
             }
             Entry::Towards => draw_arrow(canvas, &ArrowShape::Towards { at }, 0.8 * self.scale),
             Entry::Away => draw_arrow(canvas, &ArrowShape::Away { at }, 0.8 * self.scale),
+            Entry::Path => {
+                let ends = [
+                    Point::from_xy(left, middle),
+                    Point::from_xy(left + width, middle),
+                ];
+                draw_path(canvas, &ends, self.scale);
+            }
+            Entry::Gripper => {
+                let [l, t, r, b] = area;
+                let corners = [(l, t), (r, t), (r, b), (l, b)].map(|(x, y)| Point::from_xy(x, y));
+                draw_gripper(canvas, &corners, self.scale);
+            }
             Entry::LeftOut(_) => {}
         }
     }

@@ -29,7 +29,7 @@
 //!
 //! An [`AppleMark`] is what is known of one apple: a box, and perhaps the
 //! pixels of its surface and branch, its sphere, its picking direction, a
-//! caption, a reason of refusal. [`Overlay`] draws marks over the image;
+//! gripper's path and the gripper at the apple, a caption, a reason of refusal. [`Overlay`] draws marks over the image;
 //! colours are those of the paper ([`palette`]). A picking direction along
 //! the line of sight has no length in the picture and is drawn as a physicist
 //! would: ⊙ comes towards the camera, ⊗ goes away from it.
@@ -60,6 +60,7 @@ mod boxes;
 mod canvas;
 mod colored_cloud;
 mod error;
+mod gripper;
 mod ink;
 mod label;
 mod layout;

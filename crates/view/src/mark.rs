@@ -1,6 +1,6 @@
 use nalgebra::Point3;
 use pomona_cloud::PixelBox;
-use pomona_geometry::Sphere;
+use pomona_geometry::{Capsule, Sphere};
 
 /// What is drawn for one apple; everything but number and box may be absent.
 ///
@@ -31,6 +31,10 @@ pub struct AppleMark<'a> {
     pub arrow: Option<(Point3<f64>, Point3<f64>)>,
     /// The fitted sphere, metres in the camera's frame.
     pub sphere: Option<Sphere>,
+    /// Places of the gripper on its way, metres in the camera's frame.
+    pub path: Vec<Point3<f64>>,
+    /// The gripper's parts at the apple, likewise.
+    pub gripper: Vec<Capsule>,
     /// A short text on the label, such as `r 36 mm`.
     pub caption: Option<String>,
     /// Why the apple was refused; its box is then hatched.
@@ -47,6 +51,8 @@ impl AppleMark<'_> {
             branch_pixels: &[],
             arrow: None,
             sphere: None,
+            path: Vec::new(),
+            gripper: Vec::new(),
             caption: None,
             refused: None,
         }

@@ -1,6 +1,7 @@
 use crate::arrow::{MARKER_RADIUS, draw_arrow};
 use crate::boxes::{draw_box, draw_refused_box, visible_part};
 use crate::canvas::{Canvas, Point};
+use crate::gripper::{capsule_outline, draw_gripper, draw_path, path_runs};
 use crate::ink::Ink;
 use crate::label::Label;
 use crate::layout::{Layout, Plate, Wish};
@@ -29,6 +30,8 @@ struct Sketch {
     part: Option<[f32; 4]>,
     outline: Option<Vec<Point>>,
     arrow: Option<ArrowShape>,
+    path: Vec<Vec<Point>>,
+    gripper: Vec<Vec<Point>>,
     label: Label,
     wish: Option<Wish>,
 }
@@ -81,6 +84,12 @@ impl<'a> Overlay<'a> {
                 Some(part) => draw_box(&mut canvas, part, scale),
                 None => {}
             }
+        }
+        for outline in sketches.iter().flat_map(|s| &s.gripper) {
+            draw_gripper(&mut canvas, outline, scale);
+        }
+        for run in sketches.iter().flat_map(|s| &s.path) {
+            draw_path(&mut canvas, run, scale);
         }
         for arrow in sketches.iter().filter_map(|s| s.arrow.as_ref()) {
             draw_arrow(&mut canvas, arrow, scale);
@@ -163,6 +172,12 @@ impl<'a> Overlay<'a> {
             part,
             outline,
             arrow,
+            path: path_runs(self.camera, &mark.path, width, height),
+            gripper: mark
+                .gripper
+                .iter()
+                .filter_map(|part| capsule_outline(self.camera, part))
+                .collect(),
             label,
             wish,
         }
@@ -248,6 +263,12 @@ fn entries_of(marks: &[AppleMark<'_>], sketches: &[Sketch]) -> Vec<Entry> {
             Some(ArrowShape::Towards { .. }) => entries.push(Entry::Towards),
             Some(ArrowShape::Away { .. }) => entries.push(Entry::Away),
             None => {}
+        }
+        if !sketch.path.is_empty() {
+            entries.push(Entry::Path);
+        }
+        if !sketch.gripper.is_empty() {
+            entries.push(Entry::Gripper);
         }
     }
     entries.sort();

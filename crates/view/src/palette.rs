@@ -9,6 +9,10 @@ pub const SURFACE: [u8; 3] = [255, 90, 190];
 pub const BRANCH: [u8; 3] = [30, 235, 60];
 /// Picking direction: red.
 pub const DIRECTION: [u8; 3] = [235, 15, 25];
+/// Path of the gripper: yellow.
+pub const PATH: [u8; 3] = [255, 222, 0];
+/// The gripper at the apple: pale blue, which the paper does not draw.
+pub const GRIPPER: [u8; 3] = [150, 235, 255];
 /// All other points of a cloud: grey.
 pub const REST: [u8; 3] = [150, 150, 150];
 /// Box of a refused apple: orange, which the paper does not draw.

@@ -149,7 +149,7 @@ fn the_reported_clearance_is_that_of_the_path() {
     // Without errors and without the cloud, whose cells are coarser than its points.
     let planner = planner();
     let mut compared = 0;
-    for seed in 0..400 {
+    for seed in 0..1000 {
         let mut world = World::random(seed);
         world.leaves.clear();
         let (apples, branches) = (world.apples.clone(), world.branches.clone());
@@ -161,28 +161,26 @@ fn the_reported_clearance_is_that_of_the_path() {
         let clearance = approach.clearance;
         assert!(clearance.slack_m() <= slack + 1e-9, "scene {seed}");
         let Some(obstacle) = clearance.obstacle else {
-            assert!(slack >= planner.config().clearance.cutoff_m - 1e-9);
+            assert!(slack >= clearance.distance_m - 1e-9);
             continue;
         };
         assert_ne!(obstacle, Obstacle::Cloud);
         if clearance.stage == Stage::Transit {
             // Between two looks of this test the gripper moves by some millimetres.
             let resolution = planner.config().clearance.resolution_m;
-            assert!(
-                clearance.slack_m() >= slack - resolution - 0.004,
-                "scene {seed}"
-            );
+            let known = resolution.max(0.3 / 0.7 * clearance.slack_m());
+            assert!(clearance.slack_m() >= slack - known - 0.004, "scene {seed}");
             let at = approach.path.sample(clearance.time_s);
             let rods = Rods::of(&planner.config().gripper, &at.pose());
             let distance = rods.least(|rod| from_point(rod, &clearance.point_m.into()));
             let radius = match obstacle {
                 Obstacle::Apple(i) => world.apples[i].radius,
                 Obstacle::Branch(i) => world.branches[i].radius,
-                _ => 0.0,
+                Obstacle::Cloud => 0.0,
             };
             let there = distance - radius;
             assert!(
-                (there - resolution - clearance.distance_m).abs() < 1e-9,
+                (there - known - clearance.distance_m).abs() < 1e-9,
                 "scene {seed}"
             );
             compared += 1;

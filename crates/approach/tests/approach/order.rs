@@ -73,9 +73,9 @@ fn a_circle_is_broken_where_it_is_least_tight_and_says_so() {
     let mut targets = [upwards(0, 0.5), upwards(1, 0.5)];
     targets[0].directions = vec![Direction::new(-Vector3::y()).unwrap()];
     targets[1].directions = vec![Direction::new(Vector3::y()).unwrap()];
-    targets
-        .iter_mut()
-        .for_each(|t| t.branch = Some(Vector3::z()));
+    for target in &mut targets {
+        target.branch = Some(Vector3::z());
+    }
     let order = order(&centers, &targets);
     let reasons: Vec<_> = order.ranks.iter().map(|r| r.reason).collect();
     assert_eq!(reasons, [Reason::CycleBroken, Reason::AfterBlockers]);

@@ -230,6 +230,46 @@ fn a_transform_adds_the_robots_frame() {
 }
 
 #[test]
+fn a_robot_adds_its_plan_and_messages() {
+    let bench = Bench::new();
+    bench.write(
+        "t.json",
+        r#"{"schema": "pomona.transform/1", "to": "base_link", "from": "camera_color_optical_frame",
+            "translation_m": [0, 0, 0.5], "quaternion_xyzw": [-0.5, 0.5, -0.5, 0.5]}"#,
+    );
+    bench.write("r.toml", "[clearance]\ncloud_margin_m = -0.05\n");
+    let (frame, out) = (bench.text("a"), bench.text("out"));
+    let (t, r) = (bench.text("t.json"), bench.text("r.toml"));
+    let plain = ["pick", &frame, "--out", &out, "--transform", &t];
+    let run = |more: &[&str]| pomona(&[&plain[..], more].concat());
+    run(&["--robot", &r, "--ros"]).succeeded();
+    let planned = record(&bench, "out/picks.json");
+    let plan = &planned.picks[0].plan;
+    assert_eq!(plan.order.as_ref().unwrap().rank, 0);
+    assert!(planned.picks[1].plan.approach.is_none());
+    let pose = String::from_utf8(bench.read("out/ros-pose-0.yaml")).unwrap();
+    assert!(pose.contains("frame_id: \"base_link\""), "{pose}");
+    for name in ["grasps", "scene", "grasp-0", "pregrasp-0"] {
+        assert!(!bench.read(&format!("out/ros-{name}.yaml")).is_empty());
+    }
+    let planned_picture = bench.read("out/picture.png");
+
+    // Without a robot the record is what it was, and the messages of the run before are gone.
+    run(&[]).succeeded();
+    let text = String::from_utf8(bench.read("out/picks.json")).unwrap();
+    assert!(!text.contains("clearance") && !text.contains("gripper"));
+    assert!(!bench.path("out/ros-pose-0.yaml").exists());
+    assert_ne!(bench.read("out/picture.png"), planned_picture);
+
+    run(&["--ros"]).refused(&["--robot"]);
+    bench.write("r.toml", "[gripper]\njaw_width_m = -1.0\n");
+    run(&["--robot", &r]).refused(&["gripper.jaw_width_m", "metres"]);
+    bench.write("r.toml", "[griper]\n");
+    run(&["--robot", &r]).refused(&["r.toml", "griper"]);
+    pomona(&["pick", &frame, "--out", &out, "--robot", &r]).refused(&["--transform"]);
+}
+
+#[test]
 fn boxes_can_come_from_elsewhere() {
     let bench = Bench::new();
     std::fs::rename(bench.path("a/boxes.xml"), bench.path("boxes.xml")).unwrap();

@@ -51,7 +51,7 @@ fn picks() {
     bench.write(
         "t.json",
         r#"{"schema": "pomona.transform/1", "to": "base", "from": "camera_color_optical_frame",
-            "translation_m": [0, 0, 0.5], "quaternion_xyzw": [0, 0, 0, 1]}"#,
+            "translation_m": [0, 0, 0.5], "quaternion_xyzw": [-0.5, 0.5, -0.5, 0.5]}"#,
     );
     let schema = Schema::read("picks.schema.json");
     let frame = bench.text("a");
@@ -68,6 +68,32 @@ fn picks() {
     .succeeded();
     let picks = bench.read_json("robot/picks.json");
     schema.accepts(&picks);
+
+    bench.write("r.toml", "[clearance]\ncloud_margin_m = -0.05\n");
+    let robot = ["--robot", &bench.text("r.toml")];
+    let out = ["pick", &frame, "--out", &bench.text("planned")];
+    pomona(&[&out, &transform[..], &robot[..]].concat()).succeeded();
+    let planned = bench.read_json("planned/picks.json");
+    schema.accepts(&planned);
+    assert_eq!(planned["picks"][0]["approach"]["status"], "free");
+    for place in ["gripper", "approach", "clearance", "order"] {
+        schema.refuses(&planned, &format!("/picks/0/{place}/extra"), Some(json!(1)));
+    }
+    schema.refuses(&planned, "/picks/0/approach", None);
+    schema.refuses(&planned, "/picks/0/approach/path", None);
+    schema.refuses(
+        &planned,
+        "/picks/0/approach/status",
+        Some(json!("collision")),
+    );
+    bench.write("r.toml", "[gripper]\njaw_width_m = 0.03\n");
+    pomona(&[&out, &transform[..], &robot[..]].concat()).succeeded();
+    let refused = bench.read_json("planned/picks.json");
+    schema.accepts(&refused);
+    assert_eq!(
+        refused["picks"][0]["approach"]["status"],
+        "gripper_too_small"
+    );
 
     schema.refuses(&picks, "/schema", Some(json!("pomona.picks/2")));
     schema.refuses(&picks, "/extra", Some(json!(1)));

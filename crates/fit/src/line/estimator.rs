@@ -60,6 +60,16 @@ impl<T: Coordinate> Estimator for LineEstimator<'_, T> {
         }
     }
 
+    fn residuals_of(&self, line: &Line, data: &[usize], out: &mut [f64]) {
+        for (r, &i) in out.iter_mut().zip(data) {
+            *r = line.distance(&self.points.get(i));
+        }
+    }
+
+    fn same_model(&self, one: &Line, other: &Line) -> bool {
+        one == other
+    }
+
     fn count_within(&self, line: &Line, block: Range<usize>, threshold: f64) -> usize {
         simd::count(self.points.block(block), Tube::<T>::new(line, threshold))
     }

@@ -57,6 +57,7 @@ mod held;
 mod levenberg;
 mod line;
 mod measure;
+mod moments;
 mod plane;
 mod points;
 mod prior;

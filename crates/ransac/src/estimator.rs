@@ -67,6 +67,33 @@ pub trait Estimator: Sync {
     /// NaN stands for a datum that no model explains; it is never an inlier.
     fn residuals(&self, model: &Self::Model, block: Range<usize>, out: &mut [f64]);
 
+    /// Writes the unsigned residuals of the data of `data`, which ascend, into `out`, which is as long; by
+    /// default from the [`residuals`](Self::residuals) of all blocks that hold one of them.
+    ///
+    /// What is written must be the same to the last bit.
+    fn residuals_of(&self, model: &Self::Model, data: &[usize], out: &mut [f64]) {
+        let mut rest = data.iter().zip(out).peekable();
+        while let Some(&(&first, _)) = rest.peek() {
+            let block = first..(first + BLOCK).min(self.len());
+            self.fold_residuals(model, block, (), |(), datum, residual| {
+                if let Some((_, r)) = rest.next_if(|&(&i, _)| i == datum) {
+                    *r = residual;
+                }
+            });
+            // A datum that does not ascend, or that is not there, has no residual.
+            if let Some((_, r)) = rest.next_if(|&(&i, _)| i <= first) {
+                *r = f64::NAN;
+            }
+        }
+    }
+
+    /// Whether two models are the same to the last bit, as far as the estimator can tell; `false` by default.
+    ///
+    /// The engine does not refit a model to its inliers again that it has just refitted.
+    fn same_model(&self, _one: &Self::Model, _other: &Self::Model) -> bool {
+        false
+    }
+
     /// Pushes the signed residuals of one datum, with their derivatives by the
     /// [`PARAMETERS`](Self::PARAMETERS) at `model`; nothing by default, and nothing where the
     /// datum has none.

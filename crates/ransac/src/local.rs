@@ -26,15 +26,35 @@ pub struct Refiner<'a, E: Estimator, S, C> {
     pub(crate) inliers: &'a mut Vec<usize>,
     pub(crate) weights: &'a mut Vec<f64>,
     pub(crate) counts: &'a mut Counts,
+    pub(crate) latest: &'a mut Option<Refitted<E::Model>>,
+}
+
+/// A model and what became of it when it was refitted to its inliers.
+pub(crate) struct Refitted<M> {
+    of: M,
+    to: Option<M>,
 }
 
 impl<E: Estimator, S: Scorer<E>, C: Constraints<E>> Refiner<'_, E, S, C> {
     /// The model refitted to its own inliers; `None` where they do not
     /// determine one or a constraint refuses it.
+    ///
+    /// A model that was the last to be refitted is not refitted again, where the estimator knows it for
+    /// [the same](Estimator::same_model): what came of it comes again.
     pub fn refit(&mut self, model: &E::Model) -> Option<E::Model> {
+        if let Some(latest) = &*self.latest
+            && self.estimator.same_model(&latest.of, model)
+        {
+            return latest.to.clone();
+        }
         self.scorer.select(self.estimator, model, self.inliers);
         let refitted = self.estimator.refit(self.inliers, model);
-        self.allow(refitted, false)
+        let to = self.allow(refitted, false);
+        *self.latest = Some(Refitted {
+            of: model.clone(),
+            to: to.clone(),
+        });
+        to
     }
 
     /// The model refitted to its own inliers, each with the weight `weigh(residual/threshold)`

@@ -1,4 +1,4 @@
-use crate::{Covariance, Estimator, StopReason, estimator::blocks};
+use crate::{BLOCK, Covariance, Estimator, StopReason};
 
 /// How many constraint rules a report counts apart; further rules count with the last one.
 pub const MAX_RULES: usize = 8;
@@ -117,16 +117,13 @@ pub(crate) fn for_each_residual<E: Estimator>(
     inliers: &[usize],
     mut f: impl FnMut(usize, f64),
 ) {
-    let mut next = inliers.iter().copied().peekable();
-    for block in blocks(estimator.len()) {
-        if next.peek().is_none_or(|&i| i >= block.end) {
-            continue;
+    let mut buffer = [f64::NAN; BLOCK];
+    for some in inliers.chunks(BLOCK) {
+        let residuals = &mut buffer[..some.len()];
+        estimator.residuals_of(model, some, residuals);
+        for (&datum, &residual) in some.iter().zip(&*residuals) {
+            f(datum, residual);
         }
-        estimator.fold_residuals(model, block, (), |(), i, r| {
-            if next.next_if_eq(&i).is_some() {
-                f(i, r);
-            }
-        });
     }
 }
 

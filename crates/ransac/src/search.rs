@@ -1,4 +1,5 @@
 use crate::lane::{Event, Hypothesis, Kind, Lane, Task};
+use crate::local::Refitted;
 use crate::workspace::Buffers;
 use crate::{
     Confidence, Constraints, Counts, Estimator, LocalOptimization, Preemption, Progress, Ransac,
@@ -25,6 +26,7 @@ pub(crate) struct Search<'a, E: Estimator, S, P, C, L, T, B> {
     counts: Counts,
     progress: Progress,
     best: Option<Scored<E::Model>>,
+    latest: Option<Refitted<E::Model>>,
 }
 
 impl<'a, E, S, P, C, L, T, B> Search<'a, E, S, P, C, L, T, B>
@@ -86,6 +88,7 @@ where
                 ..Progress::default()
             },
             best: None,
+            latest: None,
         }
     }
 
@@ -278,6 +281,7 @@ where
             inliers: &mut self.buffers.inliers,
             weights: &mut self.buffers.numbers,
             counts: &mut self.counts,
+            latest: &mut self.latest,
         }
     }
 

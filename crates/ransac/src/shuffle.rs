@@ -20,7 +20,7 @@ use rand_core::Rng;
 /// shuffle.restore(&mut inliers);
 /// assert!(inliers.is_sorted() && inliers.iter().all(|&i| values.contains(&x[i])));
 /// ```
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Shuffle {
     order: Vec<usize>,
 }
@@ -30,12 +30,22 @@ impl Shuffle {
     ///
     /// One number is taken from `rng`.
     pub fn new<R: Rng + ?Sized>(len: usize, rng: &mut R) -> Self {
+        let mut shuffle = Self::default();
+        shuffle.renew(len, rng);
+        shuffle
+    }
+
+    /// Becomes another order, in the same memory where that is enough.
+    ///
+    /// One number is taken from `rng`, and the order is that of [`new`](Self::new).
+    pub fn renew<R: Rng + ?Sized>(&mut self, len: usize, rng: &mut R) {
         let mut draws = Draws::new(rng.next_u64(), u64::MAX);
-        let mut order: Vec<usize> = (0..len).collect();
+        self.order.clear();
+        self.order.extend(0..len);
+        let order = self.order.as_mut_slice();
         for last in (1..len).rev() {
             order.swap(last, draws.below(last + 1));
         }
-        Self { order }
     }
 
     /// The place that each shuffled datum had.
@@ -45,10 +55,19 @@ impl Shuffle {
 
     /// The elements of `data` in shuffled order; those missing in a shorter slice are left out.
     pub fn apply<T: Copy>(&self, data: &[T]) -> Vec<T> {
-        self.order
-            .iter()
-            .filter_map(|&i| data.get(i).copied())
-            .collect()
+        let mut out = Vec::new();
+        self.apply_into(data, &mut out);
+        out
+    }
+
+    /// Replaces `out` by the elements of `data` in shuffled order; those missing in a shorter slice are left out.
+    pub fn apply_into<T: Copy>(&self, data: &[T], out: &mut Vec<T>) {
+        out.clear();
+        if data.len() < self.order.len() {
+            out.extend(self.order.iter().filter_map(|&i| data.get(i).copied()));
+        } else {
+            out.extend(self.order.iter().map(|&i| data[i]));
+        }
     }
 
     /// Turns positions in the shuffled data into ascending positions in the caller's.
@@ -92,6 +111,14 @@ mod tests {
         let mut even: Vec<usize> = (0..100)
             .filter(|&i| shuffled[i].is_multiple_of(2))
             .collect();
+        let mut into = vec![7];
+        shuffle.apply_into(&data, &mut into);
+        assert_eq!(into, shuffled);
+        shuffle.apply_into(&data[..50], &mut into);
+        assert!(into.len() == 50 && into.iter().all(|i| *i < 50));
+        let mut again = Shuffle::new(7, &mut Draws::new(5, 5));
+        again.renew(100, &mut Draws::new(1, 2));
+        assert_eq!(again, shuffle);
         even.push(100);
         shuffle.restore(&mut even);
         assert_eq!(even, (0..100).step_by(2).collect::<Vec<_>>());

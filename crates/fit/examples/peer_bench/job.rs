@@ -39,7 +39,7 @@ impl Pruning {
 /// Answers one job after the other, in memory that is used again.
 pub(crate) struct Server {
     pruning: Pruning,
-    shuffled: Cloud,
+    shuffled: Shuffled,
     spheres: Workspace<Sphere>,
     lines: Workspace<Line>,
 }
@@ -48,7 +48,7 @@ impl Server {
     pub(crate) fn new(pruning: Pruning) -> Self {
         Self {
             pruning,
-            shuffled: Cloud::default(),
+            shuffled: Shuffled::default(),
             spheres: Workspace::new(),
             lines: Workspace::new(),
         }
@@ -170,18 +170,26 @@ fn statistical() -> Statistical {
 
 /// The points in the order in which a rule wants them: shuffled, unless it is lossless.
 fn arranged<'a, B: Preemption>(
-    shuffled: &'a mut Cloud,
+    shuffled: &'a mut Shuffled,
     cloud: &'a Cloud,
     rng: &mut ChaCha8Rng,
 ) -> Result<Points<'a, f32>, Box<dyn Error>> {
     if B::LOSSLESS {
         return cloud.points();
     }
-    let shuffle = Shuffle::new(cloud.x.len(), rng);
-    shuffled.x = shuffle.apply(&cloud.x);
-    shuffled.y = shuffle.apply(&cloud.y);
-    shuffled.z = shuffle.apply(&cloud.z);
-    shuffled.points()
+    let Shuffled { order, points } = shuffled;
+    order.renew(cloud.x.len(), rng);
+    order.apply_into(&cloud.x, &mut points.x);
+    order.apply_into(&cloud.y, &mut points.y);
+    order.apply_into(&cloud.z, &mut points.z);
+    points.points()
+}
+
+/// A cloud in random order, in memory that is used again.
+#[derive(Default)]
+struct Shuffled {
+    order: Shuffle,
+    points: Cloud,
 }
 
 /// How to search, whatever for.

@@ -166,6 +166,16 @@ impl<T: Coordinate> Estimator for CapsuleEstimator<'_, T> {
             *r = capsule.signed_distance(&self.points.get(i)).abs();
         }
     }
+
+    fn residuals_of(&self, capsule: &Capsule, data: &[usize], out: &mut [f64]) {
+        for (r, &i) in out.iter_mut().zip(data) {
+            *r = capsule.signed_distance(&self.points.get(i)).abs();
+        }
+    }
+
+    fn same_model(&self, one: &Capsule, other: &Capsule) -> bool {
+        one == other
+    }
 }
 
 /// The condition sees the capsule with the ends of the one started from; afterwards the ends are those of the inliers.

@@ -91,6 +91,16 @@ impl<T: Coordinate> Estimator for CircleEstimator<'_, T> {
             *r = circle.distance(&self.points.get(i));
         }
     }
+
+    fn residuals_of(&self, circle: &Circle, data: &[usize], out: &mut [f64]) {
+        for (r, &i) in out.iter_mut().zip(data) {
+            *r = circle.distance(&self.points.get(i));
+        }
+    }
+
+    fn same_model(&self, one: &Circle, other: &Circle) -> bool {
+        one == other
+    }
 }
 
 impl<T: Coordinate> HeldRefit for CircleEstimator<'_, T> {

@@ -101,6 +101,16 @@ impl<T: Coordinate> Estimator for CylinderEstimator<'_, T> {
         }
     }
 
+    fn residuals_of(&self, cylinder: &Cylinder, data: &[usize], out: &mut [f64]) {
+        for (r, &i) in out.iter_mut().zip(data) {
+            *r = cylinder.signed_distance(&self.points.get(i)).abs();
+        }
+    }
+
+    fn same_model(&self, one: &Cylinder, other: &Cylinder) -> bool {
+        one == other
+    }
+
     fn count_within(&self, cylinder: &Cylinder, block: Range<usize>, threshold: f64) -> usize {
         simd::count(self.points.block(block), pipe::<T>(cylinder, threshold))
     }

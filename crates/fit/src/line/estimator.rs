@@ -2,7 +2,8 @@ use crate::chart::linearize;
 use crate::held::HeldRefit;
 use crate::levenberg::Objective;
 use crate::line::{LineChart, Tube};
-use crate::points::{centroid_and_extent, weighted};
+use crate::moments::Moments;
+use crate::points::weighted;
 use crate::{Coordinate, Points, line_least_squares, simd};
 use pomona_geometry::Line;
 use pomona_ransac::{Candidates, Estimator, Linearization};
@@ -59,6 +60,16 @@ impl<T: Coordinate> Estimator for LineEstimator<'_, T> {
         }
     }
 
+    fn residuals_of(&self, line: &Line, data: &[usize], out: &mut [f64]) {
+        for (r, &i) in out.iter_mut().zip(data) {
+            *r = line.distance(&self.points.get(i));
+        }
+    }
+
+    fn same_model(&self, one: &Line, other: &Line) -> bool {
+        one == other
+    }
+
     fn count_within(&self, line: &Line, block: Range<usize>, threshold: f64) -> usize {
         simd::count(self.points.block(block), Tube::<T>::new(line, threshold))
     }
@@ -91,17 +102,17 @@ impl<T: Coordinate> LineEstimator<'_, T> {
         start: &Line,
         condition: Option<&dyn Fn(&Line) -> f64>,
     ) -> Option<Line> {
-        let points = weighted(&self.points, inliers, weights, None).filter(|&(_, w)| w != 0.0);
-        if points.clone().count() < 2 {
+        let moments = Moments::new(weighted(&self.points, inliers, weights, None))?;
+        if moments.points < 2 {
             return None;
         }
-        let (centroid, _) = centroid_and_extent(points.clone().map(|(p, _)| p))?;
         let start = Line {
-            point: start.foot(&centroid),
+            point: start.foot(&moments.centroid),
             ..*start
         };
+        // The sum of squared distances from a line is one of moments.
         let objective = Objective {
-            points,
+            points: moments.stand_ins().into_iter(),
             prior: None,
         };
         objective.minimize::<LineChart, 4, 2>(&start, condition)

@@ -1,5 +1,5 @@
-use crate::points::centroid_and_extent;
-use nalgebra::{Matrix3, Point3};
+use crate::moments::Moments;
+use nalgebra::Point3;
 use pomona_geometry::Line;
 
 /// The line of total least squares: the least sum of squared distances of the points from it.
@@ -16,12 +16,8 @@ pub fn line_least_squares(
     if points.len() < 2 {
         return None;
     }
-    let (centroid, extent) = centroid_and_extent(points.clone())?;
-    let scatter = points.fold(Matrix3::zeros(), |sum, p| {
-        let q = (p - centroid) / extent;
-        sum + q * q.transpose()
-    });
-    let eigen = scatter.symmetric_eigen();
+    let moments = Moments::new(points.map(|p| (p, 1.0)))?;
+    let eigen = moments.scatter.symmetric_eigen();
     let largest = eigen.eigenvalues.imax();
     let second = (0..3)
         .filter(|&k| k != largest)
@@ -31,7 +27,7 @@ pub fn line_least_squares(
     if !(eigen.eigenvalues[largest] - second > 1e-12 * eigen.eigenvalues[largest]) {
         return None;
     }
-    Line::new(centroid, eigen.eigenvectors.column(largest).into())
+    Line::new(moments.centroid, eigen.eigenvectors.column(largest).into())
 }
 
 #[cfg(test)]

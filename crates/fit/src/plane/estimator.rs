@@ -59,6 +59,16 @@ impl<T: Coordinate> Estimator for PlaneEstimator<'_, T> {
         }
     }
 
+    fn residuals_of(&self, plane: &Plane, data: &[usize], out: &mut [f64]) {
+        for (r, &i) in out.iter_mut().zip(data) {
+            *r = plane.signed_distance(&self.points.get(i)).abs();
+        }
+    }
+
+    fn same_model(&self, one: &Plane, other: &Plane) -> bool {
+        one == other
+    }
+
     fn count_within(&self, plane: &Plane, block: Range<usize>, threshold: f64) -> usize {
         simd::count(self.points.block(block), Slab::<T>::new(plane, threshold))
     }

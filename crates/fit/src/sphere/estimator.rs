@@ -125,6 +125,16 @@ impl<T: Coordinate, S: SphereSample<T>> Estimator for SphereEstimator<'_, T, S> 
         }
     }
 
+    fn residuals_of(&self, sphere: &Sphere, data: &[usize], out: &mut [f64]) {
+        for (r, &i) in out.iter_mut().zip(data) {
+            *r = sphere.signed_distance(&self.points.get(i)).abs();
+        }
+    }
+
+    fn same_model(&self, one: &Sphere, other: &Sphere) -> bool {
+        one == other
+    }
+
     fn count_within(&self, sphere: &Sphere, block: Range<usize>, threshold: f64) -> usize {
         simd::count(self.points.block(block), shell::<T>(sphere, threshold))
     }

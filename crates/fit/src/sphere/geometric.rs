@@ -1,7 +1,7 @@
 use crate::RadiusPrior;
 use crate::levenberg::{Condition, Objective};
 use crate::sphere::SphereChart;
-use crate::sphere::normal::NormalEquations;
+use crate::sphere::normal::{Gathered, NormalEquations};
 use nalgebra::{Matrix4, Point3, Vector4};
 use pomona_geometry::Sphere;
 
@@ -29,8 +29,8 @@ pub fn sphere_geometric(
 /// Ahn, Rauh and Warnecke 2001, "Least-squares orthogonal distances fitting of circle, sphere, ellipse,
 /// hyperbola, and parabola", doi 10.1016/S0031-3203(00)00152-7, section 2. On a small cap Gauss–Newton
 /// steps, without the second derivatives, are three times as many. The sum never grows from one step
-/// to the next, so the result is at least as good as `start`. It ends with a step of less than 10⁻⁷ of the
-/// radius, which leaves the square of that. A point at the centre has no direction, and pulls at the
+/// to the next, so the result is at least as good as `start`. It ends with a step that
+/// leaves less than 10⁻⁸ of the radius to go. A point at the centre has no direction, and pulls at the
 /// radius alone.
 ///
 /// `None` for fewer than four points of positive weight (three with a prior) and where anything is not finite.
@@ -60,19 +60,16 @@ pub(crate) fn sphere_held(
 }
 
 /// [`sphere_weighted`], among all spheres.
-#[expect(
-    clippy::needless_pass_by_value,
-    reason = "an iterator is taken whole, as by the other solvers"
-)]
 fn newton(
-    points: impl Iterator<Item = (Point3<f64>, f64)> + Clone,
+    points: impl Iterator<Item = (Point3<f64>, f64)>,
     start: &Sphere,
     prior: Option<RadiusPrior>,
 ) -> Option<Sphere> {
     const MAX_STEPS: usize = 100;
     const CONVERGED: f64 = 1e-7;
+    let points = Gathered::new(points);
     let equations = |sphere: &Sphere| {
-        let mut equations = NormalEquations::new(points.clone(), sphere);
+        let mut equations = NormalEquations::new(&points, sphere);
         if let Some(prior) = prior {
             equations.add_prior(prior, sphere.radius);
         }
@@ -80,7 +77,7 @@ fn newton(
     };
     let mut sphere = *start;
     let mut current = equations(&sphere);
-    let enough = current.points + usize::from(prior.is_some()) >= 4;
+    let enough = points.points + usize::from(prior.is_some()) >= 4;
     if !(enough && current.objective.is_finite()) {
         return None;
     }
@@ -93,6 +90,9 @@ fn newton(
             if let Some(step) = damped_step(&current, damping) {
                 moved = step.amax();
                 if let Some(candidate) = stepped(&sphere, &step) {
+                    if is_last(&current, &step, damping, sphere.radius) {
+                        return Some(candidate);
+                    }
                     let next = equations(&candidate);
                     improved = next.objective <= current.objective;
                     if improved {
@@ -123,6 +123,21 @@ fn damped_step(equations: &NormalEquations, damping: f64) -> Option<Vector4<f64>
     };
     let damped = damp(matrix + curvature).or_else(|| damp(*matrix))?;
     Some(damped.solve(&equations.gradient))
+}
+
+/// Whether a step leaves less than 10⁻⁸ of the radius to go, so that no other pass over the points is needed.
+///
+/// With λ the curvature along the step s, W the sum of the weights and 10 W/r a bound of the third derivatives where
+/// points lie about the surface, what is left is at most (10 W/r) |s|²/2λ, and the damping's share. The
+/// sum cannot have grown then: the fall of λ|s|²/2 exceeds what third derivatives can add.
+fn is_last(equations: &NormalEquations, step: &Vector4<f64>, damping: f64, radius: f64) -> bool {
+    const LEFT: f64 = 1e-8;
+    let weight = equations.matrix[(3, 3)];
+    let length = step.norm();
+    let curvature = step.dot(&equations.gradient) / (length * length);
+    // Written so that NaN and a step uphill refuse.
+    curvature > 0.0
+        && weight * length * (5.0 * length / radius + damping) <= LEFT * radius * curvature
 }
 
 fn stepped(sphere: &Sphere, step: &Vector4<f64>) -> Option<Sphere> {

@@ -5,8 +5,6 @@ use nalgebra::{Matrix4, Point3, Vector4};
 use pomona_geometry::Sphere;
 use pulp::{Arch, Simd, WithSimd};
 
-/// Points are copied, so many at a time, to where wide registers can read them.
-const CHUNK: usize = 256;
 /// Sums kept apart so that they can be added side by side. Their number is part of the result: it says in
 /// which order is added, on every machine.
 const LANES: usize = 4;
@@ -23,30 +21,13 @@ pub(super) struct NormalEquations {
     pub(super) curvature: Matrix4<f64>,
     /// Sum of the weighted squared residuals.
     pub(super) objective: f64,
-    /// How many points have a weight.
-    pub(super) points: usize,
 }
 
 impl NormalEquations {
     /// Of points with their weights. One at the centre has no direction, and pulls at the radius alone.
-    pub(super) fn new(points: impl Iterator<Item = (Point3<f64>, f64)>, sphere: &Sphere) -> Self {
-        let arch = Arch::new();
+    pub(super) fn new(points: &Gathered, sphere: &Sphere) -> Self {
         let mut sums = [[0.0; LANES]; SUMS];
-        let mut chunk = Chunk::new();
-        let mut used = 0;
-        for (p, weight) in points {
-            used += usize::from(weight != 0.0);
-            chunk.push(p - sphere.center, weight);
-            if chunk.filled == CHUNK {
-                arch.dispatch(Pass(&chunk, sphere.radius, &mut sums));
-                chunk.filled = 0;
-            }
-        }
-        if chunk.filled > 0 {
-            // What stands there from the chunk before weighs nothing now.
-            chunk.weight[chunk.filled..].fill(0.0);
-            arch.dispatch(Pass(&chunk, sphere.radius, &mut sums));
-        }
+        Arch::new().dispatch(Pass(&points.groups, sphere, &mut sums));
         let sums = sums.map(|lane| (lane[0] + lane[1]) + (lane[2] + lane[3]));
         let [xx, xy, xz, yy, yz, zz, x, y, z, w, ..] = sums;
         let [.., xf, yf, zf, f, ff, g, gxx, gxy, gxz, gyy, gyz, gzz] = sums;
@@ -69,7 +50,6 @@ impl NormalEquations {
             gradient: Vector4::new(xf, yf, zf, f),
             curvature,
             objective: ff,
-            points: used,
         }
     }
 
@@ -82,52 +62,61 @@ impl NormalEquations {
     }
 }
 
-/// Points as seen from the centre.
-struct Chunk {
-    x: [f64; CHUNK],
-    y: [f64; CHUNK],
-    z: [f64; CHUNK],
-    weight: [f64; CHUNK],
-    filled: usize,
+/// Points with weights, copied once to where every step reads them by wide registers.
+pub(super) struct Gathered {
+    groups: Vec<Group>,
+    /// How many points have a weight.
+    pub(super) points: usize,
 }
 
-impl Chunk {
-    fn new() -> Self {
-        let [x, y, z, weight] = [[0.0; CHUNK]; 4];
+/// x, y, z and weight of as many points as there are lanes; those that are none weigh nothing.
+type Group = [[f64; LANES]; 4];
+
+impl Gathered {
+    pub(super) fn new(points: impl Iterator<Item = (Point3<f64>, f64)>) -> Self {
+        let mut groups = Vec::with_capacity(points.size_hint().0.div_ceil(LANES));
+        let mut used = 0;
+        let mut group = [[0.0; LANES]; 4];
+        let mut filled = 0;
+        for (p, weight) in points {
+            used += usize::from(weight != 0.0);
+            for (numbers, number) in group.iter_mut().zip([p.x, p.y, p.z, weight]) {
+                numbers[filled] = number;
+            }
+            filled += 1;
+            if filled == LANES {
+                groups.push(group);
+                filled = 0;
+            }
+        }
+        if filled > 0 {
+            group[3][filled..].fill(0.0);
+            groups.push(group);
+        }
         Self {
-            x,
-            y,
-            z,
-            weight,
-            filled: 0,
+            groups,
+            points: used,
         }
     }
-
-    #[inline]
-    fn push(&mut self, offset: nalgebra::Vector3<f64>, weight: f64) {
-        self.x[self.filled] = offset.x;
-        self.y[self.filled] = offset.y;
-        self.z[self.filled] = offset.z;
-        self.weight[self.filled] = weight;
-        self.filled += 1;
-    }
 }
 
-/// Adds a chunk's share to the sums, by the widest registers there are; no multiplication is fused
+/// Adds the points' shares to the sums, by the widest registers there are; no multiplication is fused
 /// with an addition, so every path adds the same numbers in the same order.
-struct Pass<'a>(&'a Chunk, f64, &'a mut [[f64; LANES]; SUMS]);
+struct Pass<'a>(&'a [Group], &'a Sphere, &'a mut [[f64; LANES]; SUMS]);
 
 impl WithSimd for Pass<'_> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let Self(chunk, radius, total) = self;
+        let Self(groups, sphere, total) = self;
+        let (cx, cy, cz) = (sphere.center.x, sphere.center.y, sphere.center.z);
+        let radius = sphere.radius;
         let mut sums = *total;
-        for start in (0..CHUNK).step_by(LANES) {
+        for [xs, ys, zs, weights] in groups {
             for lane in 0..LANES {
-                let i = start + lane;
-                let (x, y, z, w) = (chunk.x[i], chunk.y[i], chunk.z[i], chunk.weight[i]);
+                let (x, y, z) = (xs[lane] - cx, ys[lane] - cy, zs[lane] - cz);
+                let w = weights[lane];
                 let norm = (x * x + y * y + z * z).sqrt();
                 let inverse = if norm > 0.0 { 1.0 / norm } else { 0.0 };
                 let (x, y, z, f) = (x * inverse, y * inverse, z * inverse, norm - radius);
@@ -182,7 +171,7 @@ mod tests {
                 (sphere.center + offset * r, f64::from(i % 3))
             })
             .collect();
-        let sums = NormalEquations::new(points.iter().copied(), &sphere);
+        let sums = NormalEquations::new(&Gathered::new(points.iter().copied()), &sphere);
         let (mut matrix, mut gradient, mut objective) = (Matrix4::zeros(), Vector4::zeros(), 0.0);
         let mut curvature = nalgebra::Matrix3::zeros();
         for (p, w) in &points {
@@ -200,20 +189,20 @@ mod tests {
         assert!((sums.curvature.fixed_view::<3, 3>(0, 0) - curvature).amax() < 1e-9);
         assert!((sums.objective - objective).abs() < 1e-12);
 
-        let mut chunk = Chunk::new();
-        for (p, w) in &points[..CHUNK] {
-            chunk.push(p - sphere.center, *w);
-        }
+        let gathered = Gathered::new(points.iter().copied());
         let (mut wide, mut portable) = ([[0.0; LANES]; SUMS], [[0.0; LANES]; SUMS]);
-        Arch::new().dispatch(Pass(&chunk, 0.04, &mut wide));
-        Pass(&chunk, 0.04, &mut portable).with_simd(pulp::Scalar::new());
+        Arch::new().dispatch(Pass(&gathered.groups, &sphere, &mut wide));
+        Pass(&gathered.groups, &sphere, &mut portable).with_simd(pulp::Scalar::new());
         assert_eq!(wide, portable);
     }
 
     #[test]
     fn a_point_at_the_center_pulls_at_the_radius() {
         let sphere = Sphere::new(Point3::origin(), 2.0).unwrap();
-        let sums = NormalEquations::new([(Point3::origin(), 1.0)].into_iter(), &sphere);
+        let sums = NormalEquations::new(
+            &Gathered::new([(Point3::origin(), 1.0)].into_iter()),
+            &sphere,
+        );
         assert_eq!(sums.objective, 4.0);
         assert_eq!(sums.gradient, Vector4::new(0.0, 0.0, 0.0, -2.0));
     }

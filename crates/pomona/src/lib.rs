@@ -29,7 +29,8 @@
 //!   known stays in its record.
 //! - A [`Robot`], where there is one, plans from an outcome how its gripper gets to each apple and in
 //!   which order, and adds that to the record; [`ros`] writes it as messages of ROS 2 and `MoveIt`.
-//! - The method is `paper`: Gao et al. 2022, with the settings of [`PaperConfig`].
+//! - Two methods are chosen by name: `paper` ([`PaperConfig`]), Gao et al. 2022, and `robust`
+//!   ([`RobustConfig`]), ours, whose answers say how sure they are.
 //!
 //! # Frames and units
 //!

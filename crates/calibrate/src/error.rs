@@ -98,6 +98,11 @@ pub enum CalibrateError {
         "the points fit after a reflection and not without: one of the frames is left-handed, or an axis has the wrong sign; negate that axis in the file"
     )]
     Mirrored,
+    /// The samples agree only after the poses of one side have been inverted.
+    #[error(
+        "the samples agree when the poses of one side are inverted, and not as they are: `robot_from_flange` holds `flange_from_robot`, or `camera_from_target` holds `target_from_camera`, or the kind is eye-in-hand in place of eye-to-hand, or the reverse; turn the poses round, or name the other kind"
+    )]
+    Inverted,
     /// Too few samples agree on any answer.
     #[error(
         "no consensus: {agreeing} of {samples} samples agree within {tolerance}, more than half is needed; check that the ids belong together and that camera and target are fixed, or allow a larger tolerance"

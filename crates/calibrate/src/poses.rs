@@ -52,7 +52,7 @@ pub struct PoseCalibration<Carrier: FrameTag, Other: FrameTag> {
 ///
 /// Park's and Daniilidis's solvers each propose models from samples of three in a robust search; the better
 /// outcome is refined jointly with the target's place on SE(3) with a robust loss. The answer depends on
-/// the samples and on one number taken from `rng`.
+/// the samples and on numbers taken from `rng`.
 ///
 /// # Errors
 ///
@@ -151,7 +151,14 @@ fn calibrate<Carrier: FrameTag, Other: FrameTag, R: Rng + ?Sized>(
         rotation_rad: options.rotation_tolerance_rad,
         translation_m: options.translation_tolerance_m,
     };
-    let (solver, model, inliers) = search(&pairs, solvers, tolerance, options, rng)?;
+    let found = search(&pairs, solvers, tolerance, options, rng);
+    let (solver, model, inliers) = match found {
+        Ok(found) => found,
+        Err(_) if agrees_inverted(&pairs, solvers, tolerance, options, rng) => {
+            return Err(CalibrateError::Inverted);
+        }
+        Err(error) => return Err(error),
+    };
     let kept: Vec<Pair> = inliers.iter().map(|&i| pairs[i]).collect();
     motions::check(&kept)?;
     let fit = refine::robust(&pairs, &inliers, &model).ok_or(CalibrateError::Undetermined)?;
@@ -219,6 +226,25 @@ fn search<R: Rng + ?Sized>(
         });
     }
     Ok((solver, model, inliers))
+}
+
+/// Whether the samples agree with one side inverted.
+///
+/// C Q = X M gives C⁻¹ X = Q M⁻¹: inverting one side is the same as inverting the other, and inverting both
+/// exchanges the two unknowns, which no residual shows.
+fn agrees_inverted<R: Rng + ?Sized>(
+    pairs: &[Pair],
+    solvers: &[PoseSolver],
+    tolerance: Scale,
+    options: &Options,
+    rng: &mut R,
+) -> bool {
+    let inverted = pairs.iter().map(|p| Pair {
+        carrier: p.carrier.inverse(),
+        seen: p.seen,
+    });
+    let inverted: Vec<Pair> = inverted.collect();
+    search(&inverted, solvers, tolerance, options, rng).is_ok()
 }
 
 fn quality<Carrier: FrameTag>(

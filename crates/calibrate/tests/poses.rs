@@ -248,6 +248,60 @@ fn other_refusals() {
 }
 
 #[test]
+fn poses_the_wrong_way_round_are_named() {
+    let options = Options::default();
+    let good = scene(12, false, (3e-3, 1e-3), 1.0, 6).samples;
+    let invert = |flange: bool, target: bool| {
+        let mut wrong = good.clone();
+        for s in &mut wrong {
+            if flange {
+                let inverse = s.robot_from_flange.isometry().inverse();
+                s.robot_from_flange = Transform::from_isometry(&inverse).unwrap();
+            }
+            if target {
+                let inverse = s.camera_from_target.isometry().inverse();
+                s.camera_from_target = Transform::from_isometry(&inverse).unwrap();
+            }
+        }
+        wrong
+    };
+    for (flange, target) in [(true, false), (false, true)] {
+        let wrong = invert(flange, target);
+        let error = calibrate_eye_to_hand(&wrong, &options, &mut rng()).unwrap_err();
+        assert_eq!(error, CalibrateError::Inverted);
+    }
+    let error = calibrate_eye_in_hand(&good, &options, &mut rng()).unwrap_err();
+    assert_eq!(error, CalibrateError::Inverted);
+    // Both inverted is the same equation with the unknowns exchanged: nothing in the samples tells.
+    let exchanged = calibrate_eye_to_hand(&invert(true, true), &options, &mut rng()).unwrap();
+    let right = calibrate_eye_to_hand(&good, &options, &mut rng()).unwrap();
+    let (a, b) = (exchanged.camera.transform, right.target.transform);
+    assert!(off(&a.isometry(), &b.isometry()) < 0.02);
+}
+
+#[test]
+fn several_wrong_samples_are_left_out() {
+    let mut scene = scene(15, false, (3e-3, 1e-3), 1.0, 7);
+    for i in [1, 4, 8, 10, 13] {
+        flip(&mut scene.samples[i]);
+    }
+    let moved = scene.samples[5].camera_from_target.isometry();
+    let moved = Isometry3::from_parts(
+        Translation3::from(moved.translation.vector + Vector3::new(0.03, 0.0, 0.0)),
+        moved.rotation,
+    );
+    scene.samples[5].camera_from_target = Transform::from_isometry(&moved).unwrap();
+    let found = calibrate_eye_to_hand(&scene.samples, &Options::default(), &mut rng()).unwrap();
+    let quality = &found.quality;
+    let rejected = |i: usize| quality.samples[i].rejected.as_ref().map(|r| r.cause);
+    assert_eq!(rejected(4), Some(RejectionCause::TargetFlipped));
+    assert_eq!(rejected(5), Some(RejectionCause::PlaceFarOff));
+    assert_eq!((0..15).filter(|i| rejected(*i).is_some()).count(), 6);
+    assert!(quality.warnings.iter().any(|w| w.contains("common cause")));
+    assert!(off(&found.camera.transform.isometry(), &scene.camera) < 0.01);
+}
+
+#[test]
 fn the_same_samples_and_seed_give_the_same_bits() {
     let scene = scene(15, false, (3.5e-3, 1e-3), 1.0, 4);
     let a = calibrate_eye_to_hand(&scene.samples, &Options::default(), &mut rng()).unwrap();

@@ -28,6 +28,16 @@ const UNDETERMINED_RAD: f64 = PI / 6.0;
 /// assert!(fingers.distance(&apple) < 1e-12);
 /// # Ok::<(), pomona_transforms::TransformError>(())
 /// ```
+///
+/// Where the flange is in the tool's frame is not where the tool is in the flange's:
+///
+/// ```compile_fail,E0308
+/// use pomona_transforms::{Direction, FlangeFrame, ToolFrame, ToolModel, Transform};
+///
+/// fn mount(flange_from_tcp: Transform<FlangeFrame, ToolFrame>, axis: Direction<ToolFrame>) {
+///     ToolModel::new(flange_from_tcp, axis);
+/// }
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ToolModel {
     tcp_from_flange: Transform<ToolFrame, FlangeFrame>,

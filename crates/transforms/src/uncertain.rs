@@ -34,6 +34,30 @@ const SYMMETRY: f64 = 1e-9;
 /// assert!((apple.covariance_m2[(1, 1)].sqrt() - 1.95e-3).abs() < 1e-4);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
+///
+/// Frames meet here too, or it does not compile:
+///
+/// ```compile_fail,E0308
+/// use pomona_transforms::{CameraFrame, FlangeFrame, RobotFrame, UncertainTransform};
+///
+/// fn chain(
+///     robot_from_flange: UncertainTransform<RobotFrame, FlangeFrame>,
+///     robot_from_camera: UncertainTransform<RobotFrame, CameraFrame>,
+/// ) {
+///     let _ = robot_from_flange * robot_from_camera;
+/// }
+/// ```
+///
+/// ```compile_fail,E0308
+/// use pomona_transforms::{CameraFrame, RobotFrame, UncertainDirection, UncertainTransform};
+///
+/// fn turn(
+///     robot_from_camera: UncertainTransform<RobotFrame, CameraFrame>,
+///     upwards: UncertainDirection<CameraFrame>,
+/// ) {
+///     robot_from_camera.position(&upwards);
+/// }
+/// ```
 pub struct UncertainTransform<To: FrameTag, From: FrameTag> {
     /// The transform.
     pub transform: Transform<To, From>,

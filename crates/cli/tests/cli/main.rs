@@ -8,6 +8,7 @@
 mod bad_files;
 mod bad_frames;
 mod binary;
+mod calibrate;
 mod convert;
 mod inspect;
 mod pick;

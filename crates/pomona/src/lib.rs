@@ -36,6 +36,11 @@
 //! Metres and radians; the camera's frame is REP-103 optical (x right, y down, z forward).
 //! With a transform, position and direction are given in the robot's frame as well.
 //!
+//! # Features
+//!
+//! `mcap` (off by default): the module `recording` writes a frame and its plan as an MCAP file with
+//! Foxglove's schemas.
+//!
 //! # Not here
 //!
 //! Finding apples in the colour image (the frame's boxes say where they are), drawing,
@@ -52,6 +57,8 @@ mod paper;
 mod picker;
 mod plan_record;
 mod record;
+#[cfg(feature = "mcap")]
+pub mod recording;
 mod robot;
 pub mod ros;
 mod seed;

@@ -71,7 +71,7 @@ pub use plan_record::{
     ApproachRecord, ClearanceRecord, GripperRecord, OrderRecord, PathRecord, PieceRecord,
     PlanRecord, PoseRecord, SampleRecord, WayRecord,
 };
-pub use pomona_approach::{ApproachConfig, Gripper};
+pub use pomona_approach::{ApproachConfig, COMMENTED_DEFAULTS as ROBOT_DEFAULTS, Gripper};
 pub use record::{
     AppleRecord, BoxRecord, BranchRecord, FrameRecord, Pick, Record, RobotRecord, SCHEMA, Status,
     TimingRecord,

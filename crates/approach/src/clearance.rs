@@ -41,7 +41,7 @@ pub struct Clearance {
     ///
     /// Of a path that is free it is a lower bound: too small by no more than the configured resolution
     /// or 0.3 of what is left beyond the margin. Where nothing comes within the configured cutoff, it
-    /// is 0.7 of the cutoff.
+    /// is 0.7 of the cutoff, less the depth to which the cloud may be entered.
     pub distance_m: f64,
     /// The least distance that was asked for from this obstacle.
     pub margin_m: f64,

@@ -3,6 +3,9 @@ use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 use std::path::Path;
 
+/// The default settings as commented TOML: meaning, unit and default of each.
+pub const COMMENTED_DEFAULTS: &str = include_str!("../robot.toml");
+
 /// All settings of the approach: the gripper, the arm's reach, how it moves, what counts as free.
 ///
 /// As a file it is TOML with the same names; what a file leaves out keeps its default, and a name
@@ -408,6 +411,13 @@ mod tests {
         let back: ApproachConfig = toml::from_str(&all).unwrap();
         assert_eq!(back, ApproachConfig::default());
         back.validate().unwrap();
+        let commented: ApproachConfig = toml::from_str(COMMENTED_DEFAULTS).unwrap();
+        assert_eq!(commented, ApproachConfig::default());
+        for line in all.lines().filter(|line| line.contains('=')) {
+            let (name, _) = line.split_once('=').unwrap();
+            let named = format!("\n{name}=");
+            assert!(COMMENTED_DEFAULTS.contains(&named), "{name}");
+        }
         let some: ApproachConfig = toml::from_str("[gripper]\njaw_width_m = 0.2\n").unwrap();
         assert_eq!(some.gripper.jaw_width_m, 0.2);
     }

@@ -91,7 +91,10 @@ mod sweep;
 mod target;
 
 pub use clearance::{Clearance, Obstacle, Stage};
-pub use config::{ApproachConfig, ClearanceConfig, MotionConfig, ReachConfig, Roll, SearchConfig};
+pub use config::{
+    ApproachConfig, COMMENTED_DEFAULTS, ClearanceConfig, MotionConfig, ReachConfig, Roll,
+    SearchConfig,
+};
 pub use error::{ConfigError, ReachLimit, Refusal};
 pub use gripper::Gripper;
 pub use order::{Order, Rank, Reason, pick_order};

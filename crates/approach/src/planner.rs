@@ -280,7 +280,7 @@ impl Planner {
         Ok(nearest.unwrap_or_else(|| Clearance {
             distance_m: advance::floor(config.cutoff_m, config.resolution_m)
                 + config.cloud_margin_m.min(0.0),
-            margin_m: 0.0,
+            margin_m: config.cloud_margin_m.min(0.0),
             obstacle: None,
             point_m: path.sample(0.0).position.into(),
             time_s: 0.0,

@@ -1,7 +1,7 @@
 use crate::settings::{SETTINGS, SettingsArguments, table};
 use crate::terminal;
 use clap::Args;
-use pomona::Config;
+use pomona::{Config, ROBOT_DEFAULTS};
 use std::fmt::Write;
 use toml::Value;
 
@@ -9,6 +9,7 @@ const EXAMPLES: &str = "\
 Examples:
   pomona config > pomona.toml                     the defaults, to be edited
   pomona pick frame --config pomona.toml --out out
+  pomona config --robot > robot.toml              a robot's defaults, for `pick --robot`
   pomona config --radius-max-mm 60                what a run with these flags uses";
 
 /// Columns of a comment.
@@ -17,11 +18,17 @@ const WIDTH: usize = 96;
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct ConfigArguments {
+    /// Print the settings of a robot, for `pomona pick --robot`, in place of those of picking.
+    #[arg(long)]
+    robot: bool,
     #[command(flatten)]
     settings: SettingsArguments,
 }
 
 pub(crate) fn run(arguments: &ConfigArguments) -> anyhow::Result<()> {
+    if arguments.robot {
+        return terminal::print(ROBOT_DEFAULTS);
+    }
     terminal::print(&commented(&arguments.settings.config()?)?)
 }
 

@@ -9,6 +9,9 @@ pub(crate) const PICKS: &str = "picks.json";
 /// The picture of one frame.
 pub(crate) const PICTURE: &str = "picture.png";
 
+/// The recording of one frame; runs of builds without the feature remove it all the same.
+pub(crate) const RECORDING: &str = "recording.mcap";
+
 /// The name under which the cloud of an apple is written.
 pub(crate) fn cloud_name(id: usize) -> String {
     format!("apple-{id}.ply")
@@ -26,7 +29,8 @@ fn is_ours(name: &str) -> bool {
             .and_then(|n| n.strip_suffix(".yaml"));
         message.is_some_and(|n| !n.is_empty())
     };
-    name == PICKS || name == PICTURE || is_cloud(name).is_some() || is_message(name)
+    let is_fixed = [PICKS, PICTURE, RECORDING].contains(&name);
+    is_fixed || is_cloud(name).is_some() || is_message(name)
 }
 
 /// Refuses a folder in which our files would replace somebody else's.

@@ -1,4 +1,6 @@
 use crate::apple_cloud::{AppleClouds, CloudChoice};
+#[cfg(feature = "mcap")]
+use crate::output_folder::RECORDING;
 use crate::output_folder::{OutputFolder, PICKS, PICTURE, cloud_name, refuse_foreign, write_text};
 use crate::picture::RobotView;
 use crate::settings::SettingsArguments;
@@ -58,6 +60,10 @@ pub(crate) struct PickArguments {
     /// Write the plan as messages of ROS 2 and `MoveIt` too, ros-*.yaml for `ros2 topic pub`.
     #[arg(long, requires = "robot")]
     ros: bool,
+    /// Write frame and plan as recording.mcap too, for Foxglove.
+    #[cfg(feature = "mcap")]
+    #[arg(long, requires = "robot")]
+    mcap: bool,
     /// Print the record to standard output in place of the table: one JSON object for one frame, an
     /// array for several.
     #[arg(long)]
@@ -264,6 +270,13 @@ impl Run<'_> {
             for file in ros::files(plan, robot.config()) {
                 write_text(&output, &file.name, &file.text)?;
             }
+        }
+        #[cfg(feature = "mcap")]
+        if let (Some(robot), Some(transform), Some(plan), true) =
+            (&self.robot, &self.transform, plan, self.arguments.mcap)
+        {
+            let bytes = pomona::recording::record(frame, outcome, plan, robot, transform)?;
+            std::fs::write(output.file(RECORDING), bytes)?;
         }
         if let Some(picture) = picture {
             picture.write(output.file(PICTURE))?;

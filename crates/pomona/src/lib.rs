@@ -37,6 +37,11 @@
 //! Metres and radians; the camera's frame is REP-103 optical (x right, y down, z forward).
 //! With a transform, position and direction are given in the robot's frame as well.
 //!
+//! # Features
+//!
+//! `mcap` (off by default): the module `recording` writes a frame and its plan as an MCAP file with
+//! Foxglove's schemas.
+//!
 //! # Not here
 //!
 //! Finding apples in the colour image (the frame's boxes say where they are), drawing,
@@ -53,6 +58,8 @@ mod paper;
 mod picker;
 mod plan_record;
 mod record;
+#[cfg(feature = "mcap")]
+pub mod recording;
 mod robot;
 mod robust;
 pub mod ros;
@@ -66,7 +73,7 @@ pub use plan_record::{
     ApproachRecord, ClearanceRecord, GripperRecord, OrderRecord, PathRecord, PieceRecord,
     PlanRecord, PoseRecord, SampleRecord, WayRecord,
 };
-pub use pomona_approach::{ApproachConfig, Gripper};
+pub use pomona_approach::{ApproachConfig, COMMENTED_DEFAULTS as ROBOT_DEFAULTS, Gripper};
 pub use record::{
     AppleRecord, BoxRecord, BranchRecord, CandidateRecord, FrameRecord, Pick, Record, RobotRecord,
     SCHEMA, Status, TimingRecord,

@@ -261,12 +261,14 @@ fn a_robot_adds_its_plan_and_messages() {
     assert!(!bench.path("out/ros-pose-0.yaml").exists());
     assert_ne!(bench.read("out/picture.png"), planned_picture);
 
-    run(&["--ros"]).refused(&["--robot"]);
+    let alone = run(&["--ros"]);
+    assert!(alone.code == 2 && alone.err.contains("--robot"));
     bench.write("r.toml", "[gripper]\njaw_width_m = -1.0\n");
     run(&["--robot", &r]).refused(&["gripper.jaw_width_m", "metres"]);
     bench.write("r.toml", "[griper]\n");
     run(&["--robot", &r]).refused(&["r.toml", "griper"]);
-    pomona(&["pick", &frame, "--out", &out, "--robot", &r]).refused(&["--transform"]);
+    let alone = pomona(&["pick", &frame, "--out", &out, "--robot", &r]);
+    assert!(alone.code == 2 && alone.err.contains("--transform"));
 }
 
 #[test]

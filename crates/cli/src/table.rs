@@ -191,6 +191,7 @@ pub(crate) mod tests {
                 confidence: None,
                 candidates: Vec::new(),
                 view_from: None,
+                fallback: None,
                 robot: None,
                 timing_ms: TimingRecord {
                     total: 1.25,

@@ -78,6 +78,7 @@ mod tests {
             confidence: None,
             candidates: Vec::new(),
             view_from: None,
+            fallback: None,
             robot: None,
             timing_ms: TimingRecord::default(),
         }

@@ -26,7 +26,9 @@
 //! - Each apple is worked on by itself, so the apples of a frame run in parallel;
 //!   the random numbers of one depend on (run seed, frame, apple) and nothing else.
 //! - An apple without an answer is no error: it has a [`Status`] that says why, and what is
-//!   known stays in its record.
+//!   known stays in its record. Asked for in [`FallbackConfig`], a labelled way to come in stands beside the refusal.
+//! - [`fuse`] combines the records of several frames of one tree, each with its camera's pose: one entry for
+//!   each apple in the robot's frame, the tree's sway and the apples that have moved.
 //! - The method is `paper`: Gao et al. 2022, with the settings of [`PaperConfig`].
 //!
 //! # Frames and units
@@ -46,6 +48,8 @@
 
 mod config;
 mod error;
+mod fallback;
+mod fusion;
 mod paper;
 mod picker;
 mod record;
@@ -55,9 +59,14 @@ mod surroundings;
 
 pub use config::{Config, ConfigError, Method, PaperConfig};
 pub use error::PickError;
+pub use fallback::{DirectionSource, FallbackConfig, FallbackKind};
+pub use fusion::{
+    DirectionUse, FUSED_SCHEMA, FusedApple, FusedCloud, FusedFrame, FusedRecord, FusedStatus,
+    Fusion, FusionConfig, FusionError, MovedRecord, PosedRecord, ShiftRecord, SightingRecord, fuse,
+};
 pub use picker::{Evidence, Outcome, Picker, RobotFromCamera};
 pub use record::{
-    AppleRecord, BoxRecord, BranchRecord, CandidateRecord, FrameRecord, Pick, Record, RobotRecord,
-    SCHEMA, Status, TimingRecord,
+    AppleRecord, BoxRecord, BranchRecord, CandidateRecord, FallbackRecord, FrameRecord, Pick,
+    Record, RobotRecord, SCHEMA, Status, TimingRecord,
 };
 pub use robust::{RobustConfig, SensorPreset};

@@ -191,6 +191,7 @@ pub(crate) mod tests {
                 confidence: None,
                 candidates: Vec::new(),
                 view_from: None,
+                fallback: None,
                 robot: None,
                 plan: pomona::PlanRecord::default(),
                 timing_ms: TimingRecord {

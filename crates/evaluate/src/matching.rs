@@ -78,6 +78,7 @@ mod tests {
             confidence: None,
             candidates: Vec::new(),
             view_from: None,
+            fallback: None,
             robot: None,
             plan: pomona::PlanRecord::default(),
             timing_ms: TimingRecord::default(),

@@ -1,4 +1,4 @@
-use crate::RobustConfig;
+use crate::{FallbackConfig, FusionConfig, RobustConfig};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 use thiserror::Error;
@@ -41,6 +41,10 @@ pub struct Config {
     pub paper: PaperConfig,
     /// Settings of the method `robust`.
     pub robust: RobustConfig,
+    /// What is given in place of a direction that is refused.
+    pub fallback: FallbackConfig,
+    /// Settings of the fusion of several frames.
+    pub fusion: FusionConfig,
 }
 
 /// Settings of the method `paper`.
@@ -156,7 +160,8 @@ impl Config {
     /// [`ConfigError::Value`] for the first one that makes no sense.
     pub fn validate(&self) -> Result<(), ConfigError> {
         self.paper.validate()?;
-        self.robust.validate()
+        self.robust.validate()?;
+        self.fusion.validate()
     }
 }
 
@@ -296,6 +301,8 @@ mod tests {
             ("[paper]\nsphere_iterations = 0", "paper.sphere_iterations"),
             ("[paper]\nshell_outer = inf", "paper.shell_outer"),
             ("[paper", "pomona.toml"),
+            ("[fallback]\nkind = \"luck\"", "luck"),
+            ("[fusion]\nmoved_rate = 0", "fusion.moved_rate"),
         ] {
             let message = parse(text).unwrap_err().to_string();
             assert!(message.contains(part), "{text}: {message}");

@@ -26,7 +26,9 @@
 //! - Each apple is worked on by itself, so the apples of a frame run in parallel;
 //!   the random numbers of one depend on (run seed, frame, apple) and nothing else.
 //! - An apple without an answer is no error: it has a [`Status`] that says why, and what is
-//!   known stays in its record.
+//!   known stays in its record. Asked for in [`FallbackConfig`], a labelled way to come in stands beside the refusal.
+//! - [`fuse`] combines the records of several frames of one tree, each with its camera's pose: one entry for
+//!   each apple in the robot's frame, the tree's sway and the apples that have moved.
 //! - A [`Robot`], where there is one, plans from an outcome how its gripper gets to each apple and in
 //!   which order, and adds that to the record; [`ros`] writes it as messages of ROS 2 and `MoveIt`.
 //! - Two methods are chosen by name: `paper` ([`PaperConfig`]), Gao et al. 2022, and `robust`
@@ -54,6 +56,8 @@
 
 mod config;
 mod error;
+mod fallback;
+mod fusion;
 mod paper;
 mod picker;
 mod plan_record;
@@ -68,6 +72,11 @@ mod surroundings;
 
 pub use config::{Config, ConfigError, Method, PaperConfig};
 pub use error::PickError;
+pub use fallback::{DirectionSource, FallbackConfig, FallbackKind};
+pub use fusion::{
+    DirectionUse, FUSED_SCHEMA, FusedApple, FusedCloud, FusedFrame, FusedRecord, FusedStatus,
+    Fusion, FusionConfig, FusionError, MovedRecord, PosedRecord, ShiftRecord, SightingRecord, fuse,
+};
 pub use picker::{Evidence, Outcome, Picker, RobotFromCamera};
 pub use plan_record::{
     ApproachRecord, ClearanceRecord, GripperRecord, OrderRecord, PathRecord, PieceRecord,
@@ -75,8 +84,8 @@ pub use plan_record::{
 };
 pub use pomona_approach::{ApproachConfig, COMMENTED_DEFAULTS as ROBOT_DEFAULTS, Gripper};
 pub use record::{
-    AppleRecord, BoxRecord, BranchRecord, CandidateRecord, FrameRecord, Pick, Record, RobotRecord,
-    SCHEMA, Status, TimingRecord,
+    AppleRecord, BoxRecord, BranchRecord, CandidateRecord, FallbackRecord, FrameRecord, Pick,
+    Record, RobotRecord, SCHEMA, Status, TimingRecord,
 };
 pub use robot::{Robot, RobotPlan};
 pub use robust::{RobustConfig, SensorPreset};

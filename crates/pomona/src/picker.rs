@@ -1,7 +1,7 @@
 use crate::{
-    AppleRecord, BoxRecord, BranchRecord, Config, FrameRecord, Method, Pick, PickError, PlanRecord,
-    Record, RobotRecord, SCHEMA, Status, TimingRecord, paper, robust, seed::apple_rng,
-    surroundings::window_of,
+    AppleRecord, BoxRecord, BranchRecord, Config, FallbackRecord, FrameRecord, Method, Pick,
+    PickError, PlanRecord, Record, RobotRecord, SCHEMA, Status, TimingRecord, fallback, paper,
+    robust, seed::apple_rng, surroundings::window_of,
 };
 use nalgebra::{Point3, Vector3};
 use pomona_cloud::{DepthPoints, Frame, PixelBox, PixelWindow};
@@ -135,6 +135,7 @@ impl Picker {
             confidence: None,
             candidates: Vec::new(),
             view_from: None,
+            fallback: None,
             robot: None,
             plan: PlanRecord::default(),
             timing_ms: TimingRecord::default(),
@@ -156,6 +157,17 @@ impl Picker {
             (robot_from_camera, &pick.apple, pick.direction)
         {
             pick.robot = robot_record(transform, apple.center, direction);
+        }
+        if status != Status::Picked {
+            let kind = self.config.fallback.kind;
+            let found = fallback::direction(kind, frame, &pick, &evidence, &mut buffers.points);
+            pick.fallback = found.map(|(direction, direction_source)| FallbackRecord {
+                direction: direction.into(),
+                direction_source,
+                robot: robot_from_camera
+                    .zip(pick.apple.as_ref())
+                    .and_then(|(t, apple)| robot_record(t, apple.center, direction.into())),
+            });
         }
         pick.timing_ms.total = milliseconds(start);
         Ok((pick, evidence))

@@ -1,4 +1,4 @@
-use crate::PlanRecord;
+use crate::{DirectionSource, PlanRecord};
 use pomona_cloud::PixelBox;
 use serde::{Deserialize, Serialize};
 
@@ -105,6 +105,9 @@ pub struct Pick {
     /// For a refusal: unit vector from the apple's centre towards where a camera would see it past what hides it now.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub view_from: Option<[f64; 3]>,
+    /// For a refusal, where the settings ask for it: a way to come in that is no branch's.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fallback: Option<FallbackRecord>,
     /// Position and direction in the robot's frame, where a transform was given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub robot: Option<RobotRecord>,
@@ -214,6 +217,18 @@ pub struct CandidateRecord {
     pub empty: f64,
     /// Length that something nearer hides.
     pub hidden: f64,
+}
+
+/// A direction of approach for an apple whose branch is not known: a guess from its surroundings, no answer.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FallbackRecord {
+    /// Direction of approach, a unit vector.
+    pub direction: [f64; 3],
+    /// Where it comes from.
+    pub direction_source: DirectionSource,
+    /// The same in the robot's frame, where a transform was given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub robot: Option<RobotRecord>,
 }
 
 /// An answer in the robot's frame, with the orientation of a tool that approaches along its +x axis.

@@ -1,0 +1,70 @@
+//! Rendered pieces of an orchard, seen from several sides.
+
+use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
+use pomona::{Config, Method, Picker, Record, RobotFromCamera};
+use pomona_scenes::{Make, Orchard, Shot};
+use pomona_transforms::Transform;
+
+/// The tree from several cameras, and where its apples truly are in the robot's frame.
+pub struct Views {
+    pub frames: Vec<(Record, RobotFromCamera)>,
+    pub centers: Vec<Vector3<f64>>,
+}
+
+/// A camera at `distance` from `target`, turned about it by `angle` from the robot's side and raised by `up`,
+/// radians; x of the robot points to the tree, z up.
+pub fn pose_towards(target: Vector3<f64>, distance: f64, angle: f64, up: f64) -> Isometry3<f64> {
+    let forward = Vector3::new(angle.cos() * up.cos(), angle.sin() * up.cos(), -up.sin());
+    let right = forward.cross(&Vector3::z()).normalize();
+    let down = forward.cross(&right);
+    let rotation = nalgebra::Rotation3::from_basis_unchecked(&[right, down, forward]);
+    let place = target - forward * distance;
+    Isometry3::from_parts(
+        Translation3::from(place),
+        UnitQuaternion::from_rotation_matrix(&rotation),
+    )
+}
+
+/// The orchard of `seed` from three sides, 0.35 rad apart, picked by `robust`.
+pub fn views(seed: u64) -> Views {
+    let camera = Shot::paper_camera();
+    let world = Orchard::default().world(&camera, seed);
+    let first = pose_towards(Vector3::new(1.0, 0.0, 0.5), 1.0, 0.0, 0.0);
+    let middle = first * world.apples()[0].center;
+    let distance = (middle - first * Point3::origin()).norm();
+    let picker = Picker::new(Config {
+        method: Method::Robust,
+        ..Config::default()
+    })
+    .unwrap();
+    let frames = [0.0, -0.35, 0.35]
+        .into_iter()
+        .enumerate()
+        .map(|(k, angle)| {
+            let pose = if k == 0 {
+                first
+            } else {
+                pose_towards(middle.coords, distance, angle, 0.1)
+            };
+            let seen = world.transformed(&(pose.inverse() * first));
+            let sensor = Make::AzureKinect.sensor();
+            let shot = Shot::new(
+                format!("s{seed}-{k}"),
+                camera.clone(),
+                sensor,
+                seed * 10 + k as u64,
+            );
+            let frame = shot.take(&seen).frame;
+            let transform = Transform::from_isometry(&pose).unwrap();
+            let named = RobotFromCamera::new(transform, "base_link", camera.frame_id.clone());
+            let outcome = picker.pick(&frame, 0, Some(&named)).unwrap();
+            (outcome.record, named)
+        })
+        .collect();
+    let centers = world
+        .apples()
+        .iter()
+        .map(|a| (first * a.center).coords)
+        .collect();
+    Views { frames, centers }
+}

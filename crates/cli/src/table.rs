@@ -166,6 +166,10 @@ pub(crate) mod tests {
                 radius: 0.0358,
                 inliers: 321,
                 rms: 0.002,
+                center_covariance: None,
+                radius_sd: None,
+                visible_share: None,
+                agreement: None,
             };
             let name = format!("n{id}");
             Pick {
@@ -183,6 +187,10 @@ pub(crate) mod tests {
                 branch: None,
                 foot: None,
                 direction: picked.then_some([0.0, -0.8, 0.6]),
+                direction_sd: None,
+                confidence: None,
+                candidates: Vec::new(),
+                view_from: None,
                 robot: None,
                 timing_ms: TimingRecord {
                     total: 1.25,

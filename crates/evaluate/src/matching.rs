@@ -74,6 +74,10 @@ mod tests {
             branch: None,
             foot: None,
             direction: None,
+            direction_sd: None,
+            confidence: None,
+            candidates: Vec::new(),
+            view_from: None,
             robot: None,
             timing_ms: TimingRecord::default(),
         }

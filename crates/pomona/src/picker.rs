@@ -134,6 +134,7 @@ impl Picker {
             direction_sd: None,
             confidence: None,
             candidates: Vec::new(),
+            view_from: None,
             robot: None,
             timing_ms: TimingRecord::default(),
         };

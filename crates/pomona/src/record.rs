@@ -101,7 +101,10 @@ pub struct Pick {
     /// Branches that were weighed against each other, the best first.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub candidates: Vec<CandidateRecord>,
-    /// The same in the robot's frame, where a transform was given.
+    /// For a refusal: unit vector from the apple's centre towards where a camera would see it past what hides it now.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub view_from: Option<[f64; 3]>,
+    /// Position and direction in the robot's frame, where a transform was given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub robot: Option<RobotRecord>,
     /// How long it took.

@@ -15,6 +15,7 @@ mod settings;
 mod shell;
 mod sphere;
 mod strips;
+mod view;
 mod walk;
 
 pub use sensor::SensorPreset;
@@ -104,6 +105,9 @@ pub(crate) fn pick_apple(
     {
         search.pixels(best, &mut scratch.slices, &mut evidence.branch);
     }
+    if status != Status::Picked {
+        pick.view_from = view::clearest(shell, &apple).map(Into::into);
+    }
     pick.timing_ms.branch = milliseconds(start);
     status
 }
@@ -118,7 +122,7 @@ fn answer(found: &Found, ranked: &[Candidate], config: &RobustConfig, pick: &mut
         .sqrt()
         .hypot(best.foot_sd)
         / best.distance.max(1e-3);
-    let confidence = confidence::confidence(found, ranked, sd);
+    let confidence = confidence::confidence(found, ranked);
     pick.confidence = Some(confidence);
     pick.branch = Some(BranchRecord {
         point: best.foot.into(),

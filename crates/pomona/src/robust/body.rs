@@ -202,7 +202,7 @@ impl Sums {
             let p = nearest_on_ray(ray, &body.center);
             sums.add(body, &frame, &p, variance, |e| {
                 if e < 0.0 && !settled {
-                    (1.5 / -e).min(1.0)
+                    (0.7 / -e).min(1.0)
                 } else {
                     biweight(e, cut)
                 }

@@ -31,7 +31,7 @@ impl Tally {
     /// What candidates are ranked by. What is not there counts most against a candidate, then what is not like
     /// a branch; what is hidden hardly counts.
     fn score(&self) -> f64 {
-        self.shown + self.shown_lesser_side - 1.2 * self.empty - 0.8 * self.odd - 0.1 * self.hidden
+        self.shown + self.shown_lesser_side - 1.4 * self.empty - 0.8 * self.odd - 0.1 * self.hidden
     }
 }
 
@@ -285,27 +285,37 @@ impl Search<'_> {
                     continue;
                 }
                 Slice::Empty => {
-                    tally.empty += step;
+                    tally.empty += step / (1.0 + (s / (EMPTY_NEAR * self.apple.radius)).powi(4));
                     continue;
                 }
                 Slice::Outside => continue,
             };
+            let p = powers(*s);
+            let aside = moved.side.coefficients.dot(&p);
+            let deep = (cut.deep - moved.deep.coefficients.dot(&p)).abs();
+            let near = 0.2 * axis.radius + pixel;
+            let ends = (
+                cut.own.0 && (cut.ends.0 + axis.radius - aside).abs() < near,
+                cut.own.1 && (cut.ends.1 - axis.radius - aside).abs() < near,
+            );
+            let deep_limit = 0.1 * axis.radius + 3.0 * self.deep_scale();
             let both = cut.own == (true, true);
             let like = if both {
                 (cut.width() - width).abs() < 0.3 * width + 1.5 * pixel
             } else {
                 cut.width() < width + 1.5 * pixel
             };
-            let p = powers(*s);
-            let aside = cut
-                .middle(width)
-                .map_or(0.0, |m| m - moved.side.coefficients.dot(&p));
-            let deep = cut.deep - moved.deep.coefficients.dot(&p);
-            let placed = aside.abs() < 0.2 * axis.radius + pixel
-                && deep.abs() < 0.1 * axis.radius + 3.0 * self.deep_scale();
-            if like && placed {
+            let middle = cut.middle(width).map_or(0.0, |m| m - aside);
+            let share = if like && middle.abs() < near && deep < deep_limit {
+                1.0
+            } else if (ends.0 || ends.1) && deep < 2.0 * deep_limit {
+                HALF_SHOWN
+            } else {
+                0.0
+            };
+            if share > 0.0 {
                 tally.pixels += cut.pixels;
-                *(if *s < foot { &mut before } else { &mut after }) += step;
+                *(if *s < foot { &mut before } else { &mut after }) += share * step;
             } else {
                 tally.odd += step;
             }
@@ -315,6 +325,12 @@ impl Search<'_> {
         tally
     }
 }
+
+/// Radii of the apple within which it counts fully that nothing is there: farther off a branch may end.
+const EMPTY_NEAR: f64 = 2.2;
+
+/// What a length counts for on which one end shows at its place and the other is lost in something beside it.
+const HALF_SHOWN: f64 = 0.4;
 
 /// Most strips that lines are put together from: the nearest ones.
 const MOST_STRIPS: usize = 120;

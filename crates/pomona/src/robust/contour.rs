@@ -8,7 +8,7 @@ use nalgebra::{Point3, Unit, Vector3};
 const DIRECTIONS: usize = 96;
 
 /// Missing readings over which the surface may go on, pixels.
-const BRIDGE_PX: usize = 6;
+const BRIDGE_PX: usize = 8;
 
 /// Pixels beyond the end that must not be surface.
 const BEYOND_PX: usize = 4;

@@ -40,23 +40,23 @@ pub(super) fn overview(evaluation: &Evaluation) -> String {
             &[
                 "suite · method",
                 "answers",
-                "mean confidence %",
+                "confidence %",
                 "≤ 20° %",
-                "calibration error",
-                "equal counts",
+                "ECE",
+                "ECE, equal counts",
                 "Brier",
                 "wrong: doubted",
                 "right: doubted",
-                "within 1 sd %",
-                "within 2 sd %",
+                "≤ 1 sd %",
+                "≤ 2 sd %",
                 "rms error / sd",
             ],
             &rows,
         )
         + &paragraph(
             "A confidence is the probability of an error of at most 20°, which is called right here; doubted is a \
-             confidence under 0.5. The expected calibration error is over ten bins of equal width, beside it over ten \
-             of equal count. The standard deviation of a direction is that along each of two axes, over right answers: \
+             confidence under 0.5. ECE is the expected calibration error over ten bins of equal width, beside it over \
+             ten of equal count. The standard deviation of a direction is that along each of two axes, over right answers: \
              calibrated are 39.3 % within one, 86.5 % within two, and a root mean square of 1.41.",
         )
 }
@@ -109,11 +109,8 @@ pub(super) fn section(result: &SuiteResult, rows: &[&AppleRow]) -> Result<String
         .iter()
         .filter_map(|&share| {
             let full = own.risk_coverage.last()?.coverage;
-            let point = own
-                .risk_coverage
-                .iter()
-                .filter(|p| p.coverage <= share * full + 1e-9)
-                .next_back()?;
+            let mut points = own.risk_coverage.iter();
+            let point = points.rfind(|p| p.coverage <= share * full + 1e-9)?;
             Some(vec![
                 format!("{:.3}", point.confidence),
                 percent(point.coverage),

@@ -27,7 +27,8 @@
 //!   the random numbers of one depend on (run seed, frame, apple) and nothing else.
 //! - An apple without an answer is no error: it has a [`Status`] that says why, and what is
 //!   known stays in its record.
-//! - The method is `paper`: Gao et al. 2022, with the settings of [`PaperConfig`].
+//! - Two methods are chosen by name: `paper` ([`PaperConfig`]), Gao et al. 2022, and `robust`
+//!   ([`RobustConfig`]), ours, whose answers say how sure they are.
 //!
 //! # Frames and units
 //!

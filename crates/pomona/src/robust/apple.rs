@@ -111,7 +111,8 @@ impl AppleSearch<'_> {
             y0,
             x1: x0 + window.width(),
             y1: y0 + window.height(),
-        };
+        }
+        .shrunk(self.config.rim_share);
         let jump = |z: f32| (6.0 * self.noise.sigma(f64::from(z))).max(LEAST_JUMP_M) as f32;
         let readings = blocks.fill(patch, area, side, jump);
         let points =
@@ -131,9 +132,25 @@ impl AppleSearch<'_> {
         self.optics.pixel_m(body.center.z)
     }
 
-    fn prior(&self) -> BodyPrior {
+    /// What is believed of the apple: of its radius by the smaller side of the box, where boxes are trusted so far.
+    fn prior(&self, blocks: &Blocks) -> BodyPrior {
+        let config = self.config;
+        let radius = if config.box_radius_sd_m > 0.0 {
+            let b = self.bounds;
+            let side = (b.x_max - b.x_min).min(b.y_max - b.y_min);
+            // Things in front are fewer than half of what a box shows; what shows of an apple lies before its centre.
+            let mut depths = blocks.z.clone();
+            let third = depths.len() / 3;
+            let (_, depth, _) = depths.select_nth_unstable_by(third, f32::total_cmp);
+            let depth = f64::from(*depth) + 0.25 * config.radius_mean_m;
+            let radius = 0.5 * side * self.optics.pixel_m(depth);
+            let radius = radius.clamp(config.radius_min_m, config.radius_max_m);
+            (radius, config.box_radius_sd_m)
+        } else {
+            (config.radius_mean_m, config.radius_sd_m)
+        };
         BodyPrior {
-            radius: (self.config.radius_mean_m, self.config.radius_sd_m),
+            radius,
             flattening: (self.config.flattening_mean, self.config.flattening_sd),
             axis: up(),
             axis_sd: self.config.stem_sd_rad,
@@ -171,7 +188,7 @@ impl AppleSearch<'_> {
         let config = self.config;
         let prior = BodyPrior {
             shape_sd: ROUND_SD_M,
-            ..self.prior()
+            ..self.prior(&buffers.blocks)
         };
         let course = |cuts| Course {
             cuts,
@@ -211,7 +228,7 @@ impl AppleSearch<'_> {
             axis: Unit::new_normalize(Vector3::new(0.0, -1.0, -0.2)),
             ..sphere
         };
-        let prior = self.prior();
+        let prior = self.prior(&buffers.blocks);
         let course = |cuts, settled| Course {
             cuts,
             keep_shape: false,

@@ -22,6 +22,20 @@ pub(crate) struct Area {
     pub(crate) y1: usize,
 }
 
+impl Area {
+    /// The area without a share of its width and height on each side.
+    pub(crate) fn shrunk(self, share: f64) -> Self {
+        let cut = |low: usize, high: usize| ((high - low) as f64 * share.clamp(0.0, 0.45)) as usize;
+        let (dx, dy) = (cut(self.x0, self.x1), cut(self.y0, self.y1));
+        Self {
+            x0: self.x0 + dx,
+            y0: self.y0 + dy,
+            x1: self.x1 - dx,
+            y1: self.y1 - dy,
+        }
+    }
+}
+
 impl Blocks {
     pub(crate) fn len(&self) -> usize {
         self.x.len()

@@ -21,6 +21,12 @@ pub struct RobustConfig {
     pub radius_mean_m: f64,
     /// Standard deviation of that belief, metres. Default 0.006. Smaller: hidden apples are steadier, odd sizes worse.
     pub radius_sd_m: f64,
+    /// Standard deviation, metres, of a radius read off the smaller side of a box; 0 (default): boxes do not say how large apples
+    /// are. For drawn boxes and smeared depth 0.001, for boxes of what shows of hidden apples 0.
+    pub box_radius_sd_m: f64,
+    /// Share of a box's width and height on each side whose readings are left out. Default 0. For time-of-flight cameras, which
+    /// smear an apple's rim backwards, 0.15.
+    pub rim_share: f64,
     /// Share by which apples are believed to be lower than wide. Default 0.07.
     pub flattening_mean: f64,
     /// Standard deviation of that belief. Default 0.04.
@@ -68,6 +74,8 @@ impl Default for RobustConfig {
             radius_max_m: 0.055,
             radius_mean_m: 0.038,
             radius_sd_m: 0.006,
+            box_radius_sd_m: 0.0,
+            rim_share: 0.0,
             flattening_mean: 0.07,
             flattening_sd: 0.04,
             stem_sd_rad: 0.7,
@@ -169,6 +177,11 @@ impl RobustConfig {
         for (name, value) in shares {
             require((0.0..=1.0).contains(&value), name, value, "from 0 to 1")?;
         }
+        let firm = (0.0..=1.0).contains(&c.box_radius_sd_m);
+        let name = "robust.box_radius_sd_m";
+        require(firm, name, c.box_radius_sd_m, "from 0 to 1, in metres")?;
+        let rim = (0.0..=0.4).contains(&c.rim_share);
+        require(rim, "robust.rim_share", c.rim_share, "from 0 to 0.4")?;
         let weight = (0.0..=100.0).contains(&c.box_weight);
         require(weight, "robust.box_weight", c.box_weight, "from 0 to 100")?;
         let counts = [

@@ -1,12 +1,13 @@
 //! The project's own commands: `cargo xtask COMMAND`.
 //!
 //! `ci` is everything that a change must pass; `tidy` the rules that no
-//! compiler knows; `regress` whether any result got worse; `bench` how fast and how exact we are, and the peers;
+//! compiler knows; `regress` whether any result got worse; `ablate` what each idea is worth; `bench` how fast and how exact we are, and the peers;
 //! `standalone` and `semver` what those need who add the engine to programs of their own.
 //!
 //! No algorithm lives here and none is linked in: commands start the programs
 //! of the workspace and read what they print.
 
+mod ablate;
 mod bench;
 mod ci;
 mod regress;
@@ -37,6 +38,8 @@ enum Command {
     Bench(bench::Args),
     /// Golden runs and accuracy floors: did anything get worse?
     Regress(regress::Args),
+    /// What each idea of the method `robust` is worth: variants with one of them off
+    Ablate(ablate::Args),
     /// Does a copy of the engine's folder build without the rest of the workspace?
     Standalone(standalone::Args),
     /// Does the engine's interface still suit those who built against its last release?
@@ -49,6 +52,7 @@ fn main() -> ExitCode {
         Command::Tidy => tidy::run(),
         Command::Bench(args) => bench::run(&args),
         Command::Regress(args) => regress::run(&args),
+        Command::Ablate(args) => ablate::run(&args),
         Command::Standalone(args) => standalone::run(&args),
         Command::Semver(args) => semver::run(&args),
     };

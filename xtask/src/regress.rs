@@ -4,6 +4,7 @@
 //! limits there and the golden runs in `fixtures/golden`.
 
 mod lab;
+mod side;
 mod table;
 
 use crate::workspace::{cargo, root};
@@ -56,18 +57,27 @@ pub(crate) fn run(args: &Args) -> Result<()> {
     build()?;
     let golden_folder = root().join(GOLDEN);
     let mut findings: Vec<Finding> = Vec::new();
-    for suite in chosen {
+    for runs in together(&chosen) {
         let start = Instant::now();
-        let result = evaluate(suite)?;
-        println!("{}: {:.1} s", suite.id(), start.elapsed().as_secs_f64());
-        if args.bless {
-            Golden::of(&result, suite)?.write(&golden_folder, suite)?;
+        let evaluation = evaluate(&runs)?;
+        let ids: Vec<String> = runs.iter().map(|suite| suite.id()).collect();
+        let seconds = start.elapsed().as_secs_f64();
+        println!("{}: {seconds:.1} s", ids.join(", "));
+        for suite in runs {
+            let result = result(&evaluation, suite)?;
+            if args.bless {
+                Golden::of(result, suite)?.write(&golden_folder, suite)?;
+            }
+            let golden = Golden::read(&golden_folder, suite)?;
+            findings.extend(judge(result, suite, golden.as_ref()));
+            let tables = lab::tables(result);
+            if !tables.is_empty() {
+                println!("\n{}, {tables}", suite.id());
+            }
         }
-        let golden = Golden::read(&golden_folder, suite)?;
-        findings.extend(judge(&result, suite, golden.as_ref()));
-        let tables = lab::tables(&result);
-        if !tables.is_empty() {
-            println!("\n{tables}");
+        let beside = side::table(&evaluation);
+        if !beside.is_empty() {
+            println!("\n{beside}");
         }
     }
     println!("\n{}", table::of(&findings, args.all));
@@ -101,9 +111,27 @@ fn build() -> Result<()> {
     Ok(())
 }
 
-/// Runs the program over a suite and reads the entry of its result.
-fn evaluate(suite: &SuiteLimits) -> Result<Value> {
-    let out: PathBuf = Path::new(OUT).join(suite.id());
+/// Runs that ask for the same scenes and seed, whatever the method: each scene is made once.
+fn together<'a>(chosen: &[&'a SuiteLimits]) -> Vec<Vec<&'a SuiteLimits>> {
+    let mut groups: Vec<Vec<&SuiteLimits>> = Vec::new();
+    let of = |suite: &SuiteLimits| (suite.name.clone(), suite.count, suite.seed);
+    for &suite in chosen {
+        match groups.iter_mut().find(|group| of(group[0]) == of(suite)) {
+            Some(group) => group.push(suite),
+            None => groups.push(vec![suite]),
+        }
+    }
+    groups
+}
+
+/// Runs the program over one suite under the methods of `runs`, and reads what it wrote.
+fn evaluate(runs: &[&SuiteLimits]) -> Result<Value> {
+    let Some(suite) = runs.first() else {
+        bail!("nothing to run");
+    };
+    let ids: Vec<String> = runs.iter().map(|run| run.id()).collect();
+    let id = ids.join("+");
+    let out: PathBuf = Path::new(OUT).join(&id);
     let mut command = cargo();
     command
         .args([
@@ -116,34 +144,32 @@ fn evaluate(suite: &SuiteLimits) -> Result<Value> {
             "evaluate",
             &suite.name,
         ])
-        .args(["--method", &suite.method, "--seed", &suite.seed.to_string()])
+        .args(["--seed", &suite.seed.to_string()])
         .arg("--out")
         .arg(&out);
+    for run in runs {
+        command.args(["--method", &run.method]);
+    }
     if let Some(count) = suite.count {
         command.args(["--count", &count.to_string()]);
     }
     let run = command.output().context("cannot start cargo")?;
     let errors = String::from_utf8_lossy(&run.stderr);
-    ensure!(
-        run.status.success(),
-        "{}: {}",
-        suite.id(),
-        errors.trim_end()
-    );
+    ensure!(run.status.success(), "{id}: {}", errors.trim_end());
     let path = root().join(out).join("evaluation.json");
     let what = || path.display().to_string();
-    let evaluation: Value =
-        serde_json::from_str(&std::fs::read_to_string(&path).with_context(what)?)
-            .with_context(what)?;
+    serde_json::from_str(&std::fs::read_to_string(&path).with_context(what)?).with_context(what)
+}
+
+/// The entry of a run.
+fn result<'a>(evaluation: &'a Value, suite: &SuiteLimits) -> Result<&'a Value> {
     let own = |entry: &&Value| {
         entry.get("suite").and_then(Value::as_str) == Some(&suite.name)
             && entry.get("method").and_then(Value::as_str) == Some(&suite.method)
     };
     let results = evaluation.get("results").and_then(Value::as_array);
     let result = results.into_iter().flatten().find(own);
-    result
-        .cloned()
-        .with_context(|| format!("{}: no result of {}", what(), suite.id()))
+    result.with_context(|| format!("no result of {}", suite.id()))
 }
 
 #[cfg(test)]

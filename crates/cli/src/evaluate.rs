@@ -8,7 +8,7 @@ use crate::terminal::{self, Terminal};
 use anyhow::bail;
 use clap::Args;
 use clap::builder::PossibleValuesParser;
-use pomona::{Config, Method, Picker};
+use pomona::{Config, Method, PickError, Picker, Record};
 use pomona_cloud::Frame;
 use pomona_evaluate::{
     CALIPER_SCHEMA, PickMethod, SCHEMA, Subject, apples_csv, caliper_page, evaluate,
@@ -23,6 +23,8 @@ const EXAMPLES: &str = "\
 Examples:
   pomona evaluate lab150 --out out                    the paper's fifteen orientations, ten draws each
   pomona evaluate lab15 frames/a --out out            suites and frames with truth.json
+  pomona evaluate orchard@1000 --method paper --method robust --out out
+                                                      other scenes: those of the seeds 1000, 1001, ...
   pomona evaluate orchard --count 50 --json --out out | jq '.results[].angle.error.mean'
   pomona evaluate --calipers calipers.csv frames/a frames/b --out out
 
@@ -38,8 +40,8 @@ const REPORT: &str = "report.html";
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct EvaluateArguments {
-    /// Suites (see `pomona scenes --list`), frames with truth.json, or folders of such frames; with
-    /// --calipers any frames.
+    /// Suites (see `pomona scenes --list`), SUITE@N for their scenes from the seed N on, frames with truth.json, or
+    /// folders of such frames; with --calipers any frames.
     #[arg(required = true, value_name = "SUITE|FRAME")]
     subjects: Vec<String>,
     /// Where to write. Our own files are replaced.
@@ -51,6 +53,10 @@ pub(crate) struct EvaluateArguments {
     /// Settings from a TOML file; what it leaves out keeps its default (see `pomona config`).
     #[arg(long, value_name = "FILE")]
     config: Option<PathBuf>,
+    /// Other settings to set beside the methods: a TOML file, whose name without its ending stands for them; may be
+    /// repeated.
+    #[arg(long = "variant", value_name = "FILE")]
+    variants: Vec<PathBuf>,
     /// Seed of the methods; scenes have seeds of their own.
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u64,
@@ -75,7 +81,47 @@ pub(crate) fn run(arguments: &EvaluateArguments, terminal: Terminal) -> anyhow::
     }
 }
 
-fn pickers(arguments: &EvaluateArguments) -> anyhow::Result<Vec<Picker>> {
+/// A method under its settings, and the name that it bears in the result.
+struct Named {
+    name: String,
+    picker: Picker,
+}
+
+impl PickMethod for Named {
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn answer(&self, frame: &Frame, seed: u64) -> Result<Record, PickError> {
+        self.picker.answer(frame, seed)
+    }
+}
+
+/// The methods that are asked for, and after them the variants.
+fn pickers(arguments: &EvaluateArguments) -> anyhow::Result<Vec<Named>> {
+    let mut named: Vec<Named> = methods(arguments)?
+        .into_iter()
+        .map(|picker| Named {
+            name: picker.name().to_owned(),
+            picker,
+        })
+        .collect();
+    for path in &arguments.variants {
+        let stem = path.file_stem().unwrap_or_default();
+        let name = stem.to_string_lossy().into_owned();
+        if named.iter().any(|other| other.name == name) {
+            bail!(
+                "--variant {}: `{name}` stands twice; rename the file",
+                path.display()
+            );
+        }
+        let picker = Picker::new(Config::read(path)?)?;
+        named.push(Named { name, picker });
+    }
+    Ok(named)
+}
+
+fn methods(arguments: &EvaluateArguments) -> anyhow::Result<Vec<Picker>> {
     let config = match &arguments.config {
         Some(path) => Config::read(path)?,
         None => Config::default(),
@@ -207,6 +253,7 @@ mod tests {
             out: PathBuf::new(),
             methods: methods.iter().map(ToString::to_string).collect(),
             config: None,
+            variants: Vec::new(),
             seed: 0,
             count: Some(1),
             calipers: None,
@@ -217,9 +264,29 @@ mod tests {
     #[test]
     fn each_method_once_and_by_its_name() {
         assert_eq!(pickers(&arguments(&[])).unwrap().len(), 1);
-        assert_eq!(pickers(&arguments(&["paper"])).unwrap()[0].name(), "paper");
-        let twice = pickers(&arguments(&["paper", "paper"])).unwrap_err();
+        assert_eq!(pickers(&arguments(&["paper"])).unwrap()[0].name, "paper");
+        let Err(twice) = pickers(&arguments(&["paper", "paper"])) else {
+            panic!("one method twice");
+        };
         assert!(twice.to_string().contains("twice"));
+    }
+
+    #[test]
+    fn a_variant_bears_the_name_of_its_file() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("no-box.toml");
+        std::fs::write(&path, "method = \"robust\"\n[robust]\nbox_weight = 0.0\n").unwrap();
+        let mut arguments = arguments(&["robust"]);
+        arguments.variants = vec![path.clone()];
+        let named = pickers(&arguments).unwrap();
+        let names: Vec<&str> = named.iter().map(PickMethod::name).collect();
+        assert_eq!(names, ["robust", "no-box"]);
+        assert_eq!(named[1].picker.config().robust.box_weight, 0.0);
+        arguments.variants.push(path);
+        let Err(twice) = pickers(&arguments) else {
+            panic!("one name twice");
+        };
+        assert!(twice.to_string().contains("no-box"));
     }
 
     #[test]

@@ -1,12 +1,12 @@
 //! Methods run over scenes and frames with truth: errors, statistics, tables, plots.
 //!
 //! ```
-//! use pomona::{Config, Picker};
+//! use pomona::{Config, Method, Picker};
 //! use pomona_evaluate::{Subject, evaluate};
 //!
 //! // The first two of the paper's fifteen lab orientations, generated in memory.
 //! let subjects = Subject::named("lab15", Some(2))?;
-//! let picker = Picker::new(Config::default())?;
+//! let picker = Picker::new(Config { method: Method::Paper, ..Config::default() })?;
 //!
 //! let evaluation = evaluate(&subjects, &[&picker], 0, &|| {})?;
 //!
@@ -26,6 +26,7 @@
 //!   [`Comparison`] for each pair of methods.
 //! - **Accuracy** is measured against truth, **repeatability** against the mean of a method's own
 //!   answers ([`Repeatability`], the paper's measure); they never share a name.
+//! - **[`Reliability`]** asks whether a method's confidences and standard deviations hold.
 //! - [`report_page`] and [`apples_csv`] are what `report.html` and `apples.csv` hold.
 //! - [`measure_calipers`] sets fitted radii beside measured diameters on real frames, and
 //!   aligns the apples of two frames of one tree.
@@ -49,6 +50,7 @@ mod lab;
 mod matching;
 mod method;
 pub mod paper_figures;
+mod reliability;
 mod repeatability;
 mod report;
 mod result;
@@ -68,6 +70,7 @@ pub use grouping::{Difficulty, Group, Grouping};
 pub use lab::LabRow;
 pub use matching::{SAME_APPLE_IOU, match_picks};
 pub use method::PickMethod;
+pub use reliability::{ConfidenceBin, RIGHT_RAD, Reliability, RiskPoint, SdCalibration, UNSURE};
 pub use repeatability::Repeatability;
 pub use report::{caliper_page, report_page};
 pub use result::{AngleErrors, Evaluation, Refusals, SCHEMA, SuiteResult, Timing};

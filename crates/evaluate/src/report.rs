@@ -7,6 +7,7 @@ mod lab_tables;
 mod number;
 mod overview;
 mod plot;
+mod reliability;
 mod repeats;
 mod spread;
 
@@ -28,6 +29,7 @@ pub fn report_page(evaluation: &Evaluation) -> Result<String, EvaluateError> {
         evaluation.version, evaluation.seed
     ));
     body += &overview::tables(evaluation);
+    body += &reliability::overview(evaluation);
     for result in &evaluation.results {
         let rows: Vec<&AppleRow> = evaluation
             .apples
@@ -49,6 +51,7 @@ fn suite(result: &SuiteResult, rows: &[&AppleRow]) -> Result<String, EvaluateErr
     text += &lab_tables::section(result)?;
     text += &repeats::section(result, rows)?;
     text += &spread::section(rows)?;
+    text += &reliability::section(result, rows)?;
     text += &difficulty::section(result, rows)?;
     text += &overview::timing(result);
     Ok(text)
@@ -57,13 +60,20 @@ fn suite(result: &SuiteResult, rows: &[&AppleRow]) -> Result<String, EvaluateErr
 #[cfg(test)]
 mod tests {
     use crate::{Subject, evaluate};
-    use pomona::{Config, Picker};
+    use pomona::{Config, Method, Picker};
 
     #[test]
     fn the_page_is_whole_and_needs_nothing_else() {
         let subjects = Subject::named("lab15", Some(2)).unwrap();
-        let picker = Picker::new(Config::default()).unwrap();
-        let evaluation = evaluate(&subjects, &[&picker], 0, &|| {}).unwrap();
+        let [paper, robust] = [Method::Paper, Method::Robust].map(|method| {
+            let config = Config {
+                method,
+                ..Config::default()
+            };
+            Picker::new(config).unwrap()
+        });
+        let evaluation = evaluate(&subjects, &[&paper, &robust], 0, &|| {}).unwrap();
+        assert_eq!(evaluation.results[0].reliability, None);
         let page = super::report_page(&evaluation).unwrap();
         for part in [
             "Table 1",
@@ -71,6 +81,9 @@ mod tests {
             "lab15, method paper",
             "<svg",
             "24.74",
+            "lab15 · robust less paper",
+            "Does it know how sure it is?",
+            "Confidence against outcome",
             "</html>",
         ] {
             assert!(page.contains(part), "{part}");

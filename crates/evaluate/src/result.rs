@@ -1,5 +1,5 @@
 use crate::statistics::{Share, Spread, Summary};
-use crate::{AppleRow, Comparison, Grouping, LabRow, NO_BOX, Repeatability};
+use crate::{AppleRow, Comparison, Grouping, LabRow, NO_BOX, Reliability, Repeatability};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
@@ -51,6 +51,9 @@ pub struct SuiteResult {
     pub foot_error: Option<Summary>,
     /// Answers and refusals against what the camera could see.
     pub refusals: Refusals,
+    /// Confidences against errors; absent for methods that give none.
+    #[serde(default)]
+    pub reliability: Option<Reliability>,
     /// Time of each stage.
     pub timing_ms: Option<Timing>,
     /// Errors against what makes an apple hard.
@@ -166,6 +169,7 @@ impl SuiteResult {
             radius_error_absolute: Summary::of(&absolute),
             foot_error: Summary::of(&values(rows, |row| row.foot_error)),
             refusals: Refusals::of(rows),
+            reliability: Reliability::of(rows),
             timing_ms: Timing::of(rows),
             groupings: Grouping::all(rows),
             repeatability: Repeatability::of(rows),

@@ -55,6 +55,13 @@ pub struct AppleRow {
     pub foot: Option<[f64; 3]>,
     /// Direction given: the paper's OC, a unit vector.
     pub direction: Option<[f64; 3]>,
+    /// Probability, as the method says, that its direction is at most 20° off; also of refused apples that it
+    /// weighed.
+    #[serde(default)]
+    pub confidence: Option<f64>,
+    /// Standard deviation of the direction, as the method says.
+    #[serde(default)]
+    pub direction_sd: Option<f64>,
     /// True centre.
     pub true_center: [f64; 3],
     /// True radius.
@@ -116,6 +123,8 @@ impl AppleRow {
             center: apple.map(|a| a.center),
             foot,
             direction,
+            confidence: pick.and_then(|p| p.confidence),
+            direction_sd: picked.and_then(|p| p.direction_sd),
             true_center: truth.center,
             true_radius: truth.radius,
             true_direction: truth.direction,

@@ -1,7 +1,13 @@
 use crate::EvaluateError;
 use pomona_cloud::Frame;
-use pomona_scenes::{Case, Scene, Suite, TRUTH_FILE, Truth};
+use pomona_scenes::{Case, Orientation, Scene, Suite, TRUTH_FILE, Truth};
 use std::path::{Path, PathBuf};
+
+/// What stands between the name of a suite and the first seed of another draw of it.
+const DRAW: char = '@';
+
+/// Largest first seed that is taken: more would take long to count up to.
+const LARGEST_SEED: usize = 100_000_000;
 
 /// One frame to be evaluated, not yet generated or read.
 #[derive(Clone, Debug)]
@@ -23,15 +29,29 @@ impl Subject {
     /// The first `count` cases of a suite, generated in memory when they are asked for; all of its own
     /// without a count, and further draws where the count is larger.
     pub fn of_suite(suite: Suite, count: Option<usize>) -> Vec<Self> {
+        Self::drawn_anew(suite, 0, count)
+    }
+
+    /// The same from the scene seed `first` on: scenes like the suite's own that nobody has looked at, where methods
+    /// were fitted to those. They are counted under `SUITE@first`.
+    pub fn drawn_anew(suite: Suite, first: usize, count: Option<usize>) -> Vec<Self> {
+        // A seed of the lab is one draw of all orientations.
+        let of_a_seed = match suite {
+            Suite::Lab15 | Suite::Lab150 => Orientation::PAPER.len(),
+            _ => 1,
+        };
+        let begin = first.saturating_mul(of_a_seed);
+        let end = begin.saturating_add(count.unwrap_or(suite.len()));
+        let name = match first {
+            0 => suite.name().to_owned(),
+            _ => format!("{}{DRAW}{first}", suite.name()),
+        };
         let subject = |case: Case| Self {
-            suite: suite.name().to_owned(),
+            suite: name.clone(),
             name: case.name.clone(),
             source: Source::Case(case),
         };
-        suite
-            .cases_to(count.unwrap_or(suite.len()))
-            .map(subject)
-            .collect()
+        suite.cases_to(end).skip(begin).map(subject).collect()
     }
 
     /// The frames of a folder: itself where it holds a `truth.json`, otherwise the folders
@@ -85,9 +105,10 @@ impl Subject {
             .collect())
     }
 
-    /// What `name` stands for: a suite's cases, or the frames of a folder.
+    /// What `name` stands for: a suite's cases, those of another draw of it, or the frames of a folder.
     ///
-    /// A suite's name wins over a folder of the same name; write `./NAME` for the folder.
+    /// `orchard@1000` is the suite `orchard` with the scene seeds from 1000 on. A suite's name wins over a folder
+    /// of the same name; write `./NAME` for the folder.
     ///
     /// # Errors
     ///
@@ -95,6 +116,12 @@ impl Subject {
     pub fn named(name: &str, count: Option<usize>) -> Result<Vec<Self>, EvaluateError> {
         if let Ok(suite) = Suite::named(name) {
             return Ok(Self::of_suite(suite, count));
+        }
+        if let Some((suite, first)) = name.split_once(DRAW)
+            && let (Ok(suite), Ok(first)) = (Suite::named(suite), first.parse())
+            && first <= LARGEST_SEED
+        {
+            return Ok(Self::drawn_anew(suite, first, count));
         }
         if Path::new(name).is_dir() {
             return Self::of_folder(name, count);
@@ -118,6 +145,58 @@ impl Subject {
                 frame: Frame::read(path)?,
                 truth: Truth::read(path)?,
             }),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn names(name: &str, count: usize) -> Vec<(String, String)> {
+        let subjects = Subject::named(name, Some(count)).unwrap();
+        subjects.into_iter().map(|s| (s.suite, s.name)).collect()
+    }
+
+    #[test]
+    fn another_draw_goes_on_from_its_seed_and_says_so() {
+        let own = |suite: &str, name: &str| (suite.to_owned(), name.to_owned());
+        assert_eq!(
+            names("orchard@1000", 2),
+            [
+                own("orchard@1000", "orchard-1000"),
+                own("orchard@1000", "orchard-1001")
+            ]
+        );
+        assert_eq!(names("orchard", 2), names("orchard@0", 2));
+        assert_eq!(names("lab15@3", 1), [own("lab15@3", "lab-x-90-s3")]);
+        assert_eq!(
+            Subject::named("row@40", None).unwrap().len(),
+            Suite::Row.len()
+        );
+    }
+
+    #[test]
+    fn the_scenes_of_another_draw_are_those_of_its_seeds() {
+        let anew = Subject::named("lab15@2", Some(1)).unwrap()[0]
+            .load()
+            .unwrap();
+        let own = Suite::Lab15.cases_to(31).nth(30).unwrap().scene();
+        assert_eq!(anew.truth.seed, own.truth.seed);
+        assert_eq!(anew.frame.depth, own.frame.depth);
+    }
+
+    #[test]
+    fn nonsense_is_no_draw() {
+        for name in [
+            "orchard@",
+            "orchard@x",
+            "orchard@-1",
+            "orchart@3",
+            "orchard@3@4",
+        ] {
+            let refused = Subject::named(name, None).unwrap_err().to_string();
+            assert!(refused.contains(name), "{refused}");
         }
     }
 }

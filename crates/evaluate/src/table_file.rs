@@ -56,6 +56,8 @@ const COLUMNS: &[Column] = &[
     ("direction_x", |r| coordinate(r.direction, 0)),
     ("direction_y", |r| coordinate(r.direction, 1)),
     ("direction_z", |r| coordinate(r.direction, 2)),
+    ("confidence", |r| text(r.confidence)),
+    ("direction_sd_rad", |r| text(r.direction_sd)),
     ("true_radius_m", |r| Some(r.true_radius.to_string())),
     ("true_center_x_m", |r| coordinate(Some(r.true_center), 0)),
     ("true_center_y_m", |r| coordinate(Some(r.true_center), 1)),

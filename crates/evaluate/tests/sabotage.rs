@@ -1,7 +1,7 @@
 //! A broken method must not pass the regression gate: the committed limits and goldens against methods that
 //! are spoilt on purpose.
 
-use pomona::{Config, PickError, Picker, Record};
+use pomona::{Config, Method, PickError, Picker, Record};
 use pomona_cloud::Frame;
 use pomona_evaluate::{PickMethod, Subject, evaluate};
 use std::path::Path;
@@ -64,8 +64,12 @@ fn findings(sabotage: Sabotage) -> Vec<Finding> {
     let golden = Golden::read(&root.join("fixtures/golden"), suite).expect("a golden run");
 
     let subjects = Subject::named(&suite.name, suite.count).expect("a suite");
+    let config = Config {
+        method: Method::Paper,
+        ..Config::default()
+    };
     let method = Spoilt {
-        method: Picker::new(Config::default()).expect("the default settings make sense"),
+        method: Picker::new(config).expect("the default settings make sense"),
         sabotage,
     };
     let evaluation = evaluate(&subjects, &[&method], suite.seed, &|| {}).expect("an evaluation");

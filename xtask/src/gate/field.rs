@@ -67,6 +67,18 @@ pub const FIELDS: &[Field] = &[
     field("hits_share", "/refusals/hits/share", ONE, Better::More),
     field("answered_share", "/answered/share", ONE, Better::More),
     field("refused_wrongly", "/refusals/wrong", ONE, Better::Less),
+    field(
+        "calibration_error",
+        "/reliability/calibration_error",
+        ONE,
+        Better::Less,
+    ),
+    field(
+        "doubted_of_wrong_share",
+        "/reliability/doubted_of_wrong/share",
+        ONE,
+        Better::More,
+    ),
     field("stray_picks", "/stray_picks", ONE, Better::Less),
     field("center_mean_mm", "/center_error/mean", MM, Better::Less),
     field("center_p95_mm", "/center_error/p95", MM, Better::Less),

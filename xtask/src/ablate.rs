@@ -1,0 +1,157 @@
+//! `cargo xtask ablate`: what each idea of the method `robust` is worth.
+//!
+//! Runs the program once over each suite, the method as it is beside variants of its settings that each switch one
+//! idea off (`xtask/ablation.toml`), and prints Markdown.
+
+mod table;
+
+use crate::workspace::{cargo, root};
+use anyhow::{Context, Result, bail, ensure};
+use serde::Deserialize;
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+
+const VARIANTS: &str = "xtask/ablation.toml";
+const OUT: &str = "target/ablate";
+/// The method whose ideas are switched off.
+const METHOD: &str = "robust";
+
+/// What to run.
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    /// A suite, or SUITE@N for its scenes from the seed N on; may be repeated. Default: those of xtask/ablation.toml
+    #[arg(long = "suite", value_name = "NAME")]
+    suites: Vec<String>,
+    /// Only so many scenes of each suite
+    #[arg(long, value_name = "N")]
+    count: Option<usize>,
+    /// Only this variant; may be repeated
+    #[arg(long = "variant", value_name = "NAME")]
+    variants: Vec<String>,
+}
+
+/// What `xtask/ablation.toml` holds.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Ablation {
+    /// Suites that are run where none is asked for.
+    suites: Vec<String>,
+    /// The variants, in the order of the table.
+    #[serde(rename = "variant")]
+    variants: Vec<Variant>,
+}
+
+/// Settings that switch one idea off.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Variant {
+    /// Name in the table.
+    name: String,
+    /// What is off.
+    off: String,
+    /// Settings of the method that differ from their defaults.
+    robust: toml::Table,
+}
+
+impl Ablation {
+    fn read() -> Result<Self> {
+        let path = root().join(VARIANTS);
+        let text = std::fs::read_to_string(&path).with_context(|| VARIANTS)?;
+        let ablation: Self = toml::from_str(&text).with_context(|| VARIANTS)?;
+        for (i, variant) in ablation.variants.iter().enumerate() {
+            let name = &variant.name;
+            let plain = |c: char| c.is_ascii_alphanumeric() || c == '-';
+            ensure!(
+                !name.is_empty() && name.chars().all(plain),
+                "{VARIANTS}: `{name}` is to be of letters, digits and hyphens"
+            );
+            let twice = ablation.variants[i + 1..].iter().any(|v| v.name == *name);
+            ensure!(
+                !twice && name != METHOD,
+                "{VARIANTS}: `{name}` stands twice"
+            );
+            ensure!(
+                !variant.robust.is_empty(),
+                "{VARIANTS}: `{name}` changes nothing"
+            );
+        }
+        Ok(ablation)
+    }
+}
+
+/// Runs the variants and prints a table for each suite.
+pub(crate) fn run(args: &Args) -> Result<()> {
+    let ablation = Ablation::read()?;
+    let names: Vec<&str> = ablation.variants.iter().map(|v| v.name.as_str()).collect();
+    if let Some(unknown) = args.variants.iter().find(|v| !names.contains(&v.as_str())) {
+        bail!(
+            "no variant `{unknown}` in {VARIANTS}; there are {}",
+            names.join(", ")
+        );
+    }
+    let chosen: Vec<&Variant> = ablation
+        .variants
+        .iter()
+        .filter(|v| args.variants.is_empty() || args.variants.contains(&v.name))
+        .collect();
+    let files = write(&chosen)?;
+    let suites = if args.suites.is_empty() {
+        &ablation.suites
+    } else {
+        &args.suites
+    };
+    for suite in suites {
+        let evaluation = evaluate(suite, args.count, &files)?;
+        println!("{}", table::of(suite, &evaluation, &chosen)?);
+    }
+    Ok(())
+}
+
+/// Writes each variant as a file of settings, of its name.
+fn write(variants: &[&Variant]) -> Result<Vec<PathBuf>> {
+    let folder = root().join(OUT).join("settings");
+    let what = || folder.display().to_string();
+    std::fs::create_dir_all(&folder).with_context(what)?;
+    let write = |variant: &&Variant| {
+        let mut settings = toml::Table::new();
+        settings.insert("method".to_owned(), METHOD.into());
+        settings.insert(METHOD.to_owned(), variant.robust.clone().into());
+        let path = folder.join(format!("{}.toml", variant.name));
+        std::fs::write(&path, toml::to_string(&settings)?).with_context(what)?;
+        Ok(path)
+    };
+    variants.iter().map(write).collect()
+}
+
+fn evaluate(suite: &str, count: Option<usize>, variants: &[PathBuf]) -> Result<Value> {
+    let out = Path::new(OUT).join(suite);
+    let mut command = cargo();
+    command
+        .args(["run", "--release", "--quiet", "--package", "pomona-cli"])
+        .args(["--", "evaluate", suite, "--method", METHOD, "--out"])
+        .arg(&out);
+    for variant in variants {
+        command.arg("--variant").arg(variant);
+    }
+    if let Some(count) = count {
+        command.args(["--count", &count.to_string()]);
+    }
+    let run = command.output().context("cannot start cargo")?;
+    let errors = String::from_utf8_lossy(&run.stderr);
+    ensure!(run.status.success(), "{suite}: {}", errors.trim_end());
+    let path = root().join(out).join("evaluation.json");
+    let what = || path.display().to_string();
+    serde_json::from_str(&std::fs::read_to_string(&path).with_context(what)?).with_context(what)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_variants_are_sound() {
+        let ablation = Ablation::read().unwrap();
+        assert!(!ablation.suites.is_empty());
+        assert!(ablation.variants.len() >= 10);
+    }
+}

@@ -146,21 +146,26 @@ impl<T: Coordinate, K: Kernel<T>> WithSimd for Select<'_, T, K> {
             for i in 0..x.len() {
                 held[i] = u8::from(self.kernel.holds(x[i], y[i], z[i]));
             }
+            // Written whether it holds or not, and kept only if it does: no branch to mispredict.
+            let before = self.out.len();
+            self.out.resize(before + x.len(), 0);
+            let found = &mut self.out[before..];
+            let mut length = 0;
             for (g, group) in held.as_chunks::<GROUP>().0.iter().enumerate() {
                 // Few points of a scene are inliers: most groups are passed over whole.
                 if u64::from_ne_bytes(*group) == 0 {
                     continue;
                 }
                 let start = self.first + k * CHUNK + g * GROUP;
-                // Written whether it holds or not, and kept only if it does: no branch to mispredict.
-                let mut found = [0; GROUP];
-                let mut length = 0;
                 for (i, holds) in group.iter().enumerate() {
-                    found[length % GROUP] = start + i;
+                    // After the last point there is no slot, and none is needed.
+                    if let Some(slot) = found.get_mut(length) {
+                        *slot = start + i;
+                    }
                     length += usize::from(*holds);
                 }
-                self.out.extend_from_slice(&found[..length]);
             }
+            self.out.truncate(before + length);
         }
     }
 }

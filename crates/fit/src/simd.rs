@@ -36,6 +36,7 @@ pub(crate) trait Kernel<T>: Copy {
 }
 
 /// How many points of a block `kernel` holds.
+#[inline]
 pub(crate) fn count<T: Coordinate>(block: Block<'_, T>, kernel: impl Kernel<T>) -> usize {
     Arch::new().dispatch(Count { block, kernel }) as usize
 }
@@ -141,15 +142,13 @@ impl<T: Coordinate, K: Kernel<T>> WithSimd for Select<'_, T, K> {
     fn with_simd<S: Simd>(self, _: S) {
         let (x, y, z) = even(self.block);
         let chunks = x.chunks(CHUNK).zip(y.chunks(CHUNK)).zip(z.chunks(CHUNK));
+        let mut found = [0; CHUNK];
         for (k, ((x, y), z)) in chunks.enumerate() {
             let mut held = [0_u8; CHUNK];
             for i in 0..x.len() {
                 held[i] = u8::from(self.kernel.holds(x[i], y[i], z[i]));
             }
             // Written whether it holds or not, and kept only if it does: no branch to mispredict.
-            let before = self.out.len();
-            self.out.resize(before + x.len(), 0);
-            let found = &mut self.out[before..];
             let mut length = 0;
             for (g, group) in held.as_chunks::<GROUP>().0.iter().enumerate() {
                 // Few points of a scene are inliers: most groups are passed over whole.
@@ -158,14 +157,11 @@ impl<T: Coordinate, K: Kernel<T>> WithSimd for Select<'_, T, K> {
                 }
                 let start = self.first + k * CHUNK + g * GROUP;
                 for (i, holds) in group.iter().enumerate() {
-                    // After the last point there is no slot, and none is needed.
-                    if let Some(slot) = found.get_mut(length) {
-                        *slot = start + i;
-                    }
+                    found[length % CHUNK] = start + i;
                     length += usize::from(*holds);
                 }
             }
-            self.out.truncate(before + length);
+            self.out.extend_from_slice(&found[..length]);
         }
     }
 }

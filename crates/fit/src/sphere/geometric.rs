@@ -69,30 +69,10 @@ fn newton(
     if points.points + usize::from(prior.is_some()) < 4 {
         return None;
     }
-    if prior.is_some() || points.groups() < MANY {
-        return descend(&points, 1, start, prior);
-    }
-    // Most of the way is gone with a few of the points.
-    let near = descend(&points, EACH, start, None);
-    let better = near.filter(|near| points.objective(near) <= points.objective(start));
-    descend(&points, 1, &better.unwrap_or(*start), None)
-}
-
-/// From so many groups of points on, the way begins with one of [`EACH`] groups.
-const MANY: usize = 128;
-const EACH: usize = 8;
-
-/// The sphere to which Newton's method leads from `start`, by each group of points or by one of `each`.
-fn descend(
-    points: &Gathered,
-    each: usize,
-    start: &Sphere,
-    prior: Option<RadiusPrior>,
-) -> Option<Sphere> {
     const MAX_STEPS: usize = 100;
     const CONVERGED: f64 = 1e-7;
     let equations = |sphere: &Sphere| {
-        let mut equations = NormalEquations::new(points, each, sphere);
+        let mut equations = NormalEquations::new(&points, sphere);
         if let Some(prior) = prior {
             equations.add_prior(prior, sphere.radius);
         }

@@ -25,12 +25,10 @@ pub(super) struct NormalEquations {
 
 impl NormalEquations {
     /// Of points with their weights. One at the centre has no direction, and pulls at the radius alone.
-    /// One of `each` groups is asked.
-    pub(super) fn new(points: &Gathered, each: usize, sphere: &Sphere) -> Self {
+    pub(super) fn new(points: &Gathered, sphere: &Sphere) -> Self {
         let mut sums = [[0.0; LANES]; SUMS];
         Arch::new().dispatch(Pass {
             groups: &points.groups,
-            each,
             sphere,
             sums: &mut sums,
         });
@@ -104,45 +102,12 @@ impl Gathered {
             points: used,
         }
     }
-
-    /// How many groups of points there are.
-    pub(super) fn groups(&self) -> usize {
-        self.groups.len()
-    }
-
-    /// Sum of the weighted squared residuals.
-    pub(super) fn objective(&self, sphere: &Sphere) -> f64 {
-        Arch::new().dispatch(Squares(&self.groups, sphere))
-    }
-}
-
-/// The sum of squares alone.
-struct Squares<'a>(&'a [Group], &'a Sphere);
-
-impl WithSimd for Squares<'_> {
-    type Output = f64;
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) -> f64 {
-        let Self(groups, sphere) = self;
-        let (cx, cy, cz) = (sphere.center.x, sphere.center.y, sphere.center.z);
-        let mut sums = [0.0; LANES];
-        for [xs, ys, zs, weights] in groups {
-            for lane in 0..LANES {
-                let (x, y, z) = (xs[lane] - cx, ys[lane] - cy, zs[lane] - cz);
-                let f = (x * x + y * y + z * z).sqrt() - sphere.radius;
-                sums[lane] += weights[lane] * f * f;
-            }
-        }
-        (sums[0] + sums[1]) + (sums[2] + sums[3])
-    }
 }
 
 /// Adds the points' shares to the sums, by the widest registers there are; no multiplication is fused
 /// with an addition, so every path adds the same numbers in the same order.
 struct Pass<'a> {
     groups: &'a [Group],
-    each: usize,
     sphere: &'a Sphere,
     sums: &'a mut [[f64; LANES]; SUMS],
 }
@@ -154,14 +119,13 @@ impl WithSimd for Pass<'_> {
     fn with_simd<S: Simd>(self, _: S) {
         let Self {
             groups,
-            each,
             sphere,
             sums: total,
         } = self;
         let (cx, cy, cz) = (sphere.center.x, sphere.center.y, sphere.center.z);
         let radius = sphere.radius;
         let mut sums = *total;
-        for [xs, ys, zs, weights] in groups.iter().step_by(each) {
+        for [xs, ys, zs, weights] in groups {
             for lane in 0..LANES {
                 let (x, y, z) = (xs[lane] - cx, ys[lane] - cy, zs[lane] - cz);
                 let w = weights[lane];
@@ -219,7 +183,7 @@ mod tests {
                 (sphere.center + offset * r, f64::from(i % 3))
             })
             .collect();
-        let sums = NormalEquations::new(&Gathered::new(points.iter().copied()), 1, &sphere);
+        let sums = NormalEquations::new(&Gathered::new(points.iter().copied()), &sphere);
         let (mut matrix, mut gradient, mut objective) = (Matrix4::zeros(), Vector4::zeros(), 0.0);
         let mut curvature = nalgebra::Matrix3::zeros();
         for (p, w) in &points {
@@ -242,17 +206,12 @@ mod tests {
         let groups = &gathered.groups;
         let pass = |sums| Pass {
             groups,
-            each: 1,
             sphere: &sphere,
             sums,
         };
         Arch::new().dispatch(pass(&mut wide));
         pass(&mut portable).with_simd(pulp::Scalar::new());
         assert_eq!(wide, portable);
-        let squares = gathered.objective(&sphere);
-        assert!((squares - objective).abs() < 1e-12);
-        let portable = Squares(groups, &sphere).with_simd(pulp::Scalar::new());
-        assert_eq!(squares, portable);
     }
 
     #[test]
@@ -260,7 +219,6 @@ mod tests {
         let sphere = Sphere::new(Point3::origin(), 2.0).unwrap();
         let sums = NormalEquations::new(
             &Gathered::new([(Point3::origin(), 1.0)].into_iter()),
-            1,
             &sphere,
         );
         assert_eq!(sums.objective, 4.0);

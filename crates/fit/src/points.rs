@@ -55,6 +55,7 @@ impl<'a, T: Coordinate> Points<'a, T> {
     }
 
     /// Point `index`. Panics like a slice where there is none.
+    #[inline]
     pub fn get(&self, index: usize) -> Point3<f64> {
         Point3::new(
             self.x[index].to_f64(),
@@ -72,6 +73,7 @@ impl<'a, T: Coordinate> Points<'a, T> {
     }
 
     /// The coordinates of a block, three slices of one length.
+    #[inline]
     pub(crate) fn block(&self, block: Range<usize>) -> (&'a [T], &'a [T], &'a [T]) {
         (
             &self.x[block.clone()],

@@ -36,6 +36,7 @@ pub(crate) trait Kernel<T>: Copy {
 }
 
 /// How many points of a block `kernel` holds.
+#[inline]
 pub(crate) fn count<T: Coordinate>(block: Block<'_, T>, kernel: impl Kernel<T>) -> usize {
     Arch::new().dispatch(Count { block, kernel }) as usize
 }
@@ -141,26 +142,26 @@ impl<T: Coordinate, K: Kernel<T>> WithSimd for Select<'_, T, K> {
     fn with_simd<S: Simd>(self, _: S) {
         let (x, y, z) = even(self.block);
         let chunks = x.chunks(CHUNK).zip(y.chunks(CHUNK)).zip(z.chunks(CHUNK));
+        let mut found = [0; CHUNK];
         for (k, ((x, y), z)) in chunks.enumerate() {
             let mut held = [0_u8; CHUNK];
             for i in 0..x.len() {
                 held[i] = u8::from(self.kernel.holds(x[i], y[i], z[i]));
             }
+            // Written whether it holds or not, and kept only if it does: no branch to mispredict.
+            let mut length = 0;
             for (g, group) in held.as_chunks::<GROUP>().0.iter().enumerate() {
                 // Few points of a scene are inliers: most groups are passed over whole.
                 if u64::from_ne_bytes(*group) == 0 {
                     continue;
                 }
                 let start = self.first + k * CHUNK + g * GROUP;
-                // Written whether it holds or not, and kept only if it does: no branch to mispredict.
-                let mut found = [0; GROUP];
-                let mut length = 0;
                 for (i, holds) in group.iter().enumerate() {
-                    found[length % GROUP] = start + i;
+                    found[length % CHUNK] = start + i;
                     length += usize::from(*holds);
                 }
-                self.out.extend_from_slice(&found[..length]);
             }
+            self.out.extend_from_slice(&found[..length]);
         }
     }
 }

@@ -31,6 +31,16 @@ impl<M> Candidates<M> {
         self.limit = limit;
     }
 
+    /// The model, where it holds one and no other; it then holds none.
+    #[inline]
+    pub(crate) fn take_only(&mut self) -> Option<M> {
+        if self.models.len() == 1 {
+            self.models.pop()
+        } else {
+            None
+        }
+    }
+
     pub(crate) fn drain(&mut self) -> impl Iterator<Item = M> + '_ {
         self.models.drain(..)
     }
@@ -71,7 +81,9 @@ mod tests {
         assert!(c.is_empty());
         assert!(c.push('a') && c.push('b') && !c.push('c'));
         assert_eq!(c.as_ref(), ['a', 'b']);
+        assert_eq!(c.take_only(), None);
         assert_eq!(c.drain().count(), 2);
+        assert!(c.push('d') && c.take_only() == Some('d'));
         assert_eq!(c.len(), 0);
     }
 }

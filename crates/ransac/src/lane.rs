@@ -43,6 +43,58 @@ pub(crate) struct Hypothesis<M> {
     given_up: bool,
 }
 
+/// What a rule has said at one look for one bound: the gains between which it must still be asked.
+#[derive(Clone, Copy, Debug)]
+struct Verdicts {
+    bound: f64,
+    /// The largest gain known to be too little.
+    given_up: f64,
+    /// The least gain known to be enough.
+    kept: f64,
+}
+
+impl Default for Verdicts {
+    fn default() -> Self {
+        Self {
+            bound: f64::NAN,
+            given_up: f64::NEG_INFINITY,
+            kept: f64::INFINITY,
+        }
+    }
+}
+
+impl Verdicts {
+    /// These, or none if they are for another bound.
+    fn for_bound(self, bound: f64) -> Self {
+        if self.bound == bound {
+            self
+        } else {
+            Self {
+                bound,
+                ..Self::default()
+            }
+        }
+    }
+
+    /// Whether a gain is too little, by what is known or else by `ask`.
+    #[inline]
+    fn of(&mut self, gain: f64, ask: impl FnOnce() -> bool) -> bool {
+        if gain <= self.given_up {
+            return true;
+        }
+        if gain >= self.kept {
+            return false;
+        }
+        let given_up = ask();
+        if given_up {
+            self.given_up = self.given_up.max(gain);
+        } else {
+            self.kept = self.kept.min(gain);
+        }
+        given_up
+    }
+}
+
 /// One thread's share of a round, and the memory it works in.
 #[derive(Debug)]
 pub(crate) struct Lane<M> {
@@ -51,6 +103,8 @@ pub(crate) struct Lane<M> {
     pub(crate) events: Vec<Event>,
     pub(crate) hypotheses: Vec<Hypothesis<M>>,
     live: Vec<usize>,
+    /// What is known of each look, for [`MAX_LOOKS`] of them.
+    verdicts: Vec<Verdicts>,
     /// How many data had been seen at each look.
     looks: Vec<usize>,
     /// [`MAX_LOOKS`] for each hypothesis: its gain at each look. Empty under a lossless rule.
@@ -65,6 +119,7 @@ impl<M> Lane<M> {
             events: Vec::new(),
             hypotheses: Vec::new(),
             live: Vec::new(),
+            verdicts: Vec::new(),
             looks: Vec::new(),
             gains: Vec::new(),
         }
@@ -77,8 +132,10 @@ impl<M> Lane<M> {
         // A round of absurd length grows its lists when it gets that far.
         let most = round.min(1024) * models.max(1);
         self.events.reserve(most);
-        self.hypotheses.reserve(most);
+        self.hypotheses.reserve(most + 1);
         self.live.reserve(most);
+        self.verdicts.clear();
+        self.verdicts.resize(MAX_LOOKS, Verdicts::default());
         self.looks.clear();
         self.looks.reserve(MAX_LOOKS);
         self.sample.resize(sample_size, 0);
@@ -128,17 +185,30 @@ impl<M> Lane<M> {
         if self.candidates.is_empty() {
             return ends_with(Kind::Degenerate);
         }
-        for model in self.candidates.drain() {
+        let Self {
+            candidates,
+            events,
+            hypotheses,
+            ..
+        } = self;
+        let mut take = |model| {
             let refused = task.constraints.refusing_model(estimator, &model);
             let kind = refused.map_or(Kind::Hypothesis, Kind::ModelRefused);
-            self.events.push(Event { kind, last: false });
-            if refused.is_none() {
-                self.hypotheses.push(Hypothesis {
-                    model,
-                    gain: 0.0,
-                    given_up: false,
-                });
-            }
+            events.push(Event { kind, last: false });
+            // Taken first and dropped again: which models are refused cannot be foreseen, and a branch would be
+            // mispredicted every other time.
+            let before = hypotheses.len();
+            hypotheses.push(Hypothesis {
+                model,
+                gain: 0.0,
+                given_up: false,
+            });
+            hypotheses.truncate(before + usize::from(refused.is_none()));
+        };
+        if let Some(only) = candidates.take_only() {
+            take(only);
+        } else {
+            candidates.drain().for_each(take);
         }
         if let Some(event) = self.events.last_mut() {
             event.last = true;
@@ -156,6 +226,7 @@ impl<M> Lane<M> {
         let Self {
             hypotheses,
             live,
+            verdicts,
             looks,
             gains,
             ..
@@ -182,6 +253,10 @@ impl<M> Lane<M> {
             let due = next_look <= seen && seen < data;
             if due && (B::LOSSLESS || looks.len() < MAX_LOOKS) {
                 let most_left = task.scorer.most_gain(task.estimator, seen..data);
+                let mut verdict = Verdicts::default();
+                if !B::LOSSLESS {
+                    verdict = verdicts[looks.len()].for_bound(task.bound);
+                }
                 live.retain(|&h| {
                     let hypothesis = &mut hypotheses[h];
                     let gain = hypothesis.gain;
@@ -193,11 +268,14 @@ impl<M> Lane<M> {
                         data,
                         gain,
                         most_left,
+                        counts: S::COUNTS,
                     };
-                    hypothesis.given_up = task.preemption.gives_up(&look, task.bound);
+                    hypothesis.given_up =
+                        verdict.of(gain, || task.preemption.gives_up(&look, task.bound));
                     !hypothesis.given_up
                 });
                 if !B::LOSSLESS {
+                    verdicts[looks.len()] = verdict;
                     looks.push(seen);
                 }
                 next_look = task.preemption.next_look(seen, data);
@@ -232,6 +310,7 @@ impl<M> Lane<M> {
                 data,
                 gain,
                 most_left,
+                counts: S::COUNTS,
             };
             task.preemption.gives_up(&look, bound)
         })

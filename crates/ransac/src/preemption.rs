@@ -1,4 +1,7 @@
+mod tail;
+
 use crate::estimator::FIRST_BLOCK;
+use tail::log_tail;
 
 /// What is known of a model part of the way through the data.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -11,6 +14,8 @@ pub struct Look {
     pub gain: f64,
     /// The most that the others can gain.
     pub most_left: f64,
+    /// Whether each datum gains 0 or 1, so that a gain is a number of inliers.
+    pub counts: bool,
 }
 
 /// How often a [`Preemption`] that is not lossless looks at one model at most.
@@ -34,7 +39,8 @@ pub trait Preemption: Sync {
 
     /// Whether to give up, where nothing but a score above `bound` is of use.
     ///
-    /// A rule that gives up for one bound must give up for every larger one.
+    /// A rule that gives up for one bound must give up for every larger one, and one that gives up
+    /// at one gain at every smaller one: it is not asked about what follows from an earlier answer.
     fn gives_up(&self, look: &Look, bound: f64) -> bool;
 }
 
@@ -115,6 +121,11 @@ impl Preemption for Exhaustive {
 /// have a mean of at least r = (Np − nq)/(N − n): exp(−(N−n) kl(r, p)). A model is given up where
 /// the smaller of the two, at p = bound/N, is at most `error` divided by the number of looks. Both
 /// fall with growing p, so that the bound itself is the worst case.
+///
+/// Where a score counts inliers ([`Scorer::COUNTS`](crate::Scorer::COUNTS)) the probability is known: of the K inliers
+/// that the least score above the bound has, at most g are among the first n data with the probability of the hypergeometric
+/// distribution, a fraction of what Hoeffding's bound says. A model is given up where that is
+/// at most `error` divided by the number of looks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Statistical {
     log_error: f64,
@@ -173,6 +184,11 @@ impl Preemption for Statistical {
             return true;
         }
         let (seen, data) = (look.seen as f64, look.data as f64);
+        if look.counts {
+            let marked = (bound.floor() + 1.0).clamp(0.0, data);
+            let log_looks = f64::from(Self::looks(look.data)).ln();
+            return log_tail(seen, look.gain, marked, data) <= self.log_error - log_looks;
+        }
         let unseen = data - seen;
         let q = look.gain / seen;
         let p = (bound / data).min(1.0);
@@ -195,6 +211,14 @@ mod tests {
             data: 10_000,
             gain,
             most_left: (10_000 - seen) as f64,
+            counts: false,
+        }
+    }
+
+    fn count(seen: usize, gain: f64) -> Look {
+        Look {
+            counts: true,
+            ..look(seen, gain)
         }
     }
 
@@ -240,8 +264,16 @@ mod tests {
         assert!(!rule.gives_up(&look(256, 23.0), 1000.0));
         assert!(!rule.gives_up(&look(256, 5.0), f64::NEG_INFINITY));
         assert!(!rule.gives_up(&look(256, f64::NAN), 1000.0));
+        // What is known of a count is more: 3.5 % is improbable as well, and 5.5 % is not.
+        assert!(rule.gives_up(&count(256, 9.0), 1000.0));
+        assert!(!rule.gives_up(&look(256, 9.0), 1000.0));
+        assert!(!rule.gives_up(&count(256, 14.0), 1000.0));
+        assert!(!rule.gives_up(&count(256, 5.0), f64::NEG_INFINITY));
+        assert!(!rule.gives_up(&count(256, f64::NAN), 1000.0));
         // Without an error to spend, the lossless bound is left.
         let strict = Statistical::with_error(0.0);
+        assert!(!strict.gives_up(&count(256, 0.0), 1000.0));
+        assert!(strict.gives_up(&count(9500, 0.0), 1000.0));
         assert!(!strict.gives_up(&look(256, 0.0), 1000.0));
         assert!(strict.gives_up(&look(9500, 0.0), 1000.0));
     }
@@ -252,12 +284,54 @@ mod tests {
             let rule = Statistical::with_error(error);
             for seen in [128, 1024, 4096, 8192] {
                 for gain in [0.0, 1.0, 0.02 * seen as f64, 0.3 * seen as f64, seen as f64] {
-                    let verdicts =
-                        (0..10_100).map(|bound| rule.gives_up(&look(seen, gain), f64::from(bound)));
-                    assert!(verdicts.is_sorted(), "{error} {seen} {gain}");
+                    for look in [look(seen, gain), count(seen, gain.floor())] {
+                        let verdicts =
+                            (0..10_100).map(|bound| rule.gives_up(&look, f64::from(bound)));
+                        assert!(verdicts.is_sorted(), "{error} {look:?}");
+                    }
                 }
             }
         }
+    }
+
+    #[test]
+    fn giving_up_is_monotone_in_the_gain() {
+        for error in [0.3, 0.01, 1e-9] {
+            let rule = Statistical::with_error(error);
+            for seen in [128, 1024, 4096, 8192] {
+                for bound in [0.0, 10.0, 300.0, 2000.0, 9000.0] {
+                    for look in [look, count] {
+                        let keeps =
+                            (0..=seen).map(|gain| !rule.gives_up(&look(seen, gain as f64), bound));
+                        assert!(keeps.is_sorted(), "{error} {seen} {bound}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_count_is_lost_as_seldom_as_promised() {
+        // 3000 orders of 2000 data with 200 inliers against a bound of 199: 300 losses are allowed.
+        let rule = Statistical::with_error(0.1);
+        let mut lost = 0;
+        for trial in 0..3000 {
+            let mut draws = crate::Draws::new(11, trial);
+            let order = crate::Shuffle::new(2000, &mut draws);
+            let given_up = [128, 256, 512, 1024].into_iter().any(|seen| {
+                let found = order.order()[..seen].iter().filter(|&&i| i < 200).count();
+                let look = Look {
+                    seen,
+                    data: 2000,
+                    gain: found as f64,
+                    most_left: (2000 - seen) as f64,
+                    counts: true,
+                };
+                rule.gives_up(&look, 199.0)
+            });
+            lost += i32::from(given_up);
+        }
+        assert!((60..300).contains(&lost), "{lost}");
     }
 
     #[test]

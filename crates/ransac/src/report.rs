@@ -135,16 +135,25 @@ pub(crate) fn residual_statistics<E: Estimator>(
     buffer: &mut Vec<f64>,
 ) -> ResidualStatistics {
     buffer.clear();
-    let (mut squares, mut sum, mut max) = (0.0, 0.0, 0.0_f64);
-    for_each_residual(estimator, model, inliers, |_, r| {
-        squares += r * r;
-        sum += r;
-        max = max.max(r);
-        buffer.push(r);
-    });
+    buffer.resize(inliers.len(), f64::NAN);
+    for (some, residuals) in inliers.chunks(BLOCK).zip(buffer.chunks_mut(BLOCK)) {
+        estimator.residuals_of(model, some, residuals);
+    }
     if buffer.is_empty() {
         return ResidualStatistics::default();
     }
+    // Four sums side by side.
+    let (mut squares, mut sums, mut largest) = ([0.0; 4], [0.0; 4], [0.0_f64; 4]);
+    for four in buffer.chunks(4) {
+        for (lane, &r) in four.iter().enumerate() {
+            squares[lane] += r * r;
+            sums[lane] += r;
+            largest[lane] = largest[lane].max(r);
+        }
+    }
+    let total = |lanes: [f64; 4]| (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]);
+    let (squares, sum) = (total(squares), total(sums));
+    let max = largest.into_iter().fold(0.0, f64::max);
     let n = inliers.len() as f64;
     ResidualStatistics {
         rms: (squares / n).sqrt(),

@@ -35,6 +35,11 @@ impl<M, F: Fn(&M) -> f64 + Sync> Threshold<M> for F {
 /// More is better. That no datum gains more than 1 is what bounds a score from
 /// above while part of the data is still unseen.
 pub trait Scorer<E: Estimator>: Sync {
+    /// Whether each datum gains 0 or 1, so that a score is a number of inliers; `false` by default.
+    ///
+    /// [`Statistical`](crate::Statistical) gives a hopeless model up earlier where it is `true`.
+    const COUNTS: bool = false;
+
     /// Sum of the gains of the data of `block`, at most [`BLOCK`](crate::BLOCK) of them.
     fn block_gain(&self, estimator: &E, model: &E::Model, block: Range<usize>) -> f64;
 
@@ -85,6 +90,7 @@ pub trait Scorer<E: Estimator>: Sync {
                 data,
                 gain,
                 most_left,
+                counts: Self::COUNTS,
             };
             if Lossless::default().gives_up(&look, bound) {
                 return None;
@@ -136,6 +142,8 @@ impl<T> InlierCount<T> {
 }
 
 impl<E: Estimator, T: Threshold<E::Model>> Scorer<E> for InlierCount<T> {
+    const COUNTS: bool = true;
+
     fn block_gain(&self, estimator: &E, model: &E::Model, block: Range<usize>) -> f64 {
         estimator.count_within(model, block, self.threshold.for_model(model)) as f64
     }

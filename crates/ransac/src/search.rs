@@ -245,7 +245,11 @@ where
     fn promote(&mut self, model: Scored<E::Model>) {
         let local = &self.parts.local;
         let best = local.improve(&mut self.refiner(), model);
-        self.progress.best_inliers = self.parts.scorer.count(self.estimator, &best.model);
+        self.progress.best_inliers = if S::COUNTS {
+            best.score as usize
+        } else {
+            self.parts.scorer.count(self.estimator, &best.model)
+        };
         self.progress.best_score = Some(best.score);
         self.best = Some(best);
     }

@@ -65,9 +65,12 @@ fn newton(
     start: &Sphere,
     prior: Option<RadiusPrior>,
 ) -> Option<Sphere> {
+    let points = Gathered::new(points);
+    if points.points + usize::from(prior.is_some()) < 4 {
+        return None;
+    }
     const MAX_STEPS: usize = 100;
     const CONVERGED: f64 = 1e-7;
-    let points = Gathered::new(points);
     let equations = |sphere: &Sphere| {
         let mut equations = NormalEquations::new(&points, sphere);
         if let Some(prior) = prior {
@@ -77,8 +80,7 @@ fn newton(
     };
     let mut sphere = *start;
     let mut current = equations(&sphere);
-    let enough = points.points + usize::from(prior.is_some()) >= 4;
-    if !(enough && current.objective.is_finite()) {
+    if !current.objective.is_finite() {
         return None;
     }
     let mut damping = 1e-6;

@@ -14,7 +14,11 @@ use pomona_geometry::{Line, Sphere};
 /// four points.)
 #[inline]
 pub fn sphere_through(points: [Point3<f64>; 4]) -> Option<Sphere> {
-    let [q1, q2, q3] = [1, 2, 3].map(|i| points[i] - points[0]);
+    let (q1, q2, q3) = (
+        points[1] - points[0],
+        points[2] - points[0],
+        points[3] - points[0],
+    );
     let (s1, s2, s3) = (q1.norm_squared(), q2.norm_squared(), q3.norm_squared());
     let q2xq3 = q2.cross(&q3);
     let volume = q1.dot(&q2xq3);
@@ -22,7 +26,7 @@ pub fn sphere_through(points: [Point3<f64>; 4]) -> Option<Sphere> {
     if !(volume * volume > 1e-18 * s1 * s2 * s3) {
         return None;
     }
-    let center = (q2xq3 * s1 + q3.cross(&q1) * s2 + q1.cross(&q2) * s3) / (2.0 * volume);
+    let center = (q2xq3 * s1 + q3.cross(&q1) * s2 + q1.cross(&q2) * s3) * (0.5 / volume);
     Sphere::new(points[0] + center, center.norm())
 }
 

@@ -27,7 +27,11 @@ impl NormalEquations {
     /// Of points with their weights. One at the centre has no direction, and pulls at the radius alone.
     pub(super) fn new(points: &Gathered, sphere: &Sphere) -> Self {
         let mut sums = [[0.0; LANES]; SUMS];
-        Arch::new().dispatch(Pass(&points.groups, sphere, &mut sums));
+        Arch::new().dispatch(Pass {
+            groups: &points.groups,
+            sphere,
+            sums: &mut sums,
+        });
         let sums = sums.map(|lane| (lane[0] + lane[1]) + (lane[2] + lane[3]));
         let [xx, xy, xz, yy, yz, zz, x, y, z, w, ..] = sums;
         let [.., xf, yf, zf, f, ff, g, gxx, gxy, gxz, gyy, gyz, gzz] = sums;
@@ -102,14 +106,22 @@ impl Gathered {
 
 /// Adds the points' shares to the sums, by the widest registers there are; no multiplication is fused
 /// with an addition, so every path adds the same numbers in the same order.
-struct Pass<'a>(&'a [Group], &'a Sphere, &'a mut [[f64; LANES]; SUMS]);
+struct Pass<'a> {
+    groups: &'a [Group],
+    sphere: &'a Sphere,
+    sums: &'a mut [[f64; LANES]; SUMS],
+}
 
 impl WithSimd for Pass<'_> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let Self(groups, sphere, total) = self;
+        let Self {
+            groups,
+            sphere,
+            sums: total,
+        } = self;
         let (cx, cy, cz) = (sphere.center.x, sphere.center.y, sphere.center.z);
         let radius = sphere.radius;
         let mut sums = *total;
@@ -191,8 +203,14 @@ mod tests {
 
         let gathered = Gathered::new(points.iter().copied());
         let (mut wide, mut portable) = ([[0.0; LANES]; SUMS], [[0.0; LANES]; SUMS]);
-        Arch::new().dispatch(Pass(&gathered.groups, &sphere, &mut wide));
-        Pass(&gathered.groups, &sphere, &mut portable).with_simd(pulp::Scalar::new());
+        let groups = &gathered.groups;
+        let pass = |sums| Pass {
+            groups,
+            sphere: &sphere,
+            sums,
+        };
+        Arch::new().dispatch(pass(&mut wide));
+        pass(&mut portable).with_simd(pulp::Scalar::new());
         assert_eq!(wide, portable);
     }
 

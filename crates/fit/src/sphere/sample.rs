@@ -34,7 +34,8 @@ impl<T: Coordinate> SphereSample<T> for FourPoints {
 
     fn fit(&self, points: &Points<'_, T>, sample: &[usize], candidates: &mut Candidates<Sphere>) {
         let &[i, j, k, l] = sample else { return };
-        if let Some(sphere) = sphere_through([i, j, k, l].map(|i| points.get(i))) {
+        let four = [points.get(i), points.get(j), points.get(k), points.get(l)];
+        if let Some(sphere) = sphere_through(four) {
             candidates.push(sphere);
         }
     }

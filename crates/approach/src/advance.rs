@@ -31,6 +31,8 @@ pub(crate) fn floor(least: f64, resolution: f64) -> f64 {
 /// then all slacks between two looks are at least 0. Where any collision will do for an answer, the least
 /// slack is not looked for, only whether one is negative.
 ///
+/// Then the way is gone backwards too: it is at its end, among the branches, that most ways collide.
+///
 /// # Errors
 ///
 /// The first look with a slack under ε.
@@ -48,42 +50,60 @@ pub(crate) fn transit(
     let least_slack = |least: &Option<TimedHit>| least.map_or(config.cutoff_m, |(h, _)| h.slack());
     let mut allowance = 0.0;
     let mut first = true;
-    for piece in path.pieces().iter().filter(|p| p.stage == Stage::Transit) {
-        let step = piece.curve.duration_s / INTERVALS as f64;
-        for interval in 0..INTERVALS {
-            let from = piece.start_s + interval as f64 * step;
-            let to = from + step;
-            let speed = path.point_speed_bound(piece, from, to, radius_about_tool);
-            let mut time = from;
-            loop {
-                let left = (to - time) * speed;
-                if !first && left <= allowance {
-                    allowance -= left;
-                    break;
-                }
-                if !first {
-                    time += allowance / speed;
-                }
-                first = false;
-                let pose = path.sample(time).pose();
-                let bodies = open.map(|body| body.moved(&pose));
-                let hit = scene.nearest(&Shape::new(&bodies), view, config, ahead);
-                let slack = hit.map_or(ahead, |h| h.slack());
-                if let Some(hit) = hit
-                    && slack < least_slack(&least)
-                {
-                    least = Some((hit, time));
-                }
-                if slack < resolution {
-                    return hit.map_or(Ok(least), |hit| Err((hit, time)));
-                }
-                allowance = if view.any {
-                    slack
-                } else {
-                    slack - floor(least_slack(&least), resolution)
-                };
+    for (from, to, speed) in intervals(path, radius_about_tool, view.any) {
+        let length = (to - from).abs();
+        let mut gone = 0.0;
+        loop {
+            let left = (length - gone) * speed;
+            if !first && left <= allowance {
+                allowance -= left;
+                break;
             }
+            if !first {
+                gone += allowance / speed;
+            }
+            first = false;
+            let time = if to > from { from + gone } else { from - gone };
+            let pose = path.sample(time).pose();
+            let bodies = open.map(|body| body.moved(&pose));
+            let hit = scene.nearest(&Shape::new(&bodies), view, config, ahead);
+            let slack = hit.map_or(ahead, |h| h.slack());
+            if let Some(hit) = hit
+                && slack < least_slack(&least)
+            {
+                least = Some((hit, time));
+            }
+            if slack < resolution {
+                return hit.map_or(Ok(least), |hit| Err((hit, time)));
+            }
+            allowance = if view.any {
+                slack
+            } else {
+                slack - floor(least_slack(&least), resolution)
+            };
         }
     }
     Ok(least)
+}
+
+/// Intervals of the transit in the order in which to go through them: where each is entered and
+/// left, and a bound on the speed of the gripper's points within it.
+fn intervals(path: &Path, radius: f64, backwards: bool) -> Vec<(f64, f64, f64)> {
+    let mut intervals = Vec::with_capacity(2 * INTERVALS);
+    for piece in path.pieces().iter().filter(|p| p.stage == Stage::Transit) {
+        let step = piece.curve.duration_s / INTERVALS as f64;
+        for i in 0..INTERVALS {
+            let from = piece.start_s + i as f64 * step;
+            let to = from + step;
+            let speed = path.point_speed_bound(piece, from, to, radius);
+            intervals.push((from, to, speed));
+        }
+    }
+    if backwards {
+        intervals.reverse();
+        for (from, to, _) in &mut intervals {
+            std::mem::swap(from, to);
+        }
+    }
+    intervals
 }

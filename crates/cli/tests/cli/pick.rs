@@ -266,7 +266,8 @@ fn a_robot_adds_its_plan_and_messages() {
     bench.write("r.toml", "[gripper]\njaw_width_m = -1.0\n");
     run(&["--robot", &r]).refused(&["gripper.jaw_width_m", "metres"]);
     bench.write("r.toml", "[griper]\n");
-    run(&["--robot", &r]).refused(&["r.toml", "griper"]);
+    let unknown = run(&["--robot", &r]);
+    assert!(unknown.code == 2 && unknown.err.contains("r.toml") && unknown.err.contains("griper"));
     let alone = pomona(&["pick", &frame, "--out", &out, "--robot", &r]);
     assert!(alone.code == 2 && alone.err.contains("--transform"));
 }

@@ -174,6 +174,13 @@ fn refine(pairs: &PointPairs, inliers: &[usize], start: &Similarity) -> Option<F
             break;
         }
     }
+    // Once more with the samples that were kept last, so that the report belongs to the model.
+    let r = residuals(&model);
+    let last: Vec<f64> = kept
+        .iter()
+        .map(|&i| Loss::weight((r[i] / sigma_m).powi(2)))
+        .collect();
+    let model = pairs.fit_to(&kept, Some(&last))?;
     let r = residuals(&model);
     let mut weights = vec![0.0; n];
     let mut normal = Matrix6::zeros();
@@ -192,7 +199,7 @@ fn refine(pairs: &PointPairs, inliers: &[usize], start: &Similarity) -> Option<F
     })
 }
 
-/// Of a place by a left perturbation, rotation first: [−[p]× I].
+/// Of a place by a left perturbation, rotation first: `[−[p]× I]`.
 fn derivatives(place: &nalgebra::Vector3<f64>) -> Matrix3x6<f64> {
     let mut j = Matrix3x6::zeros();
     j.fixed_view_mut::<3, 3>(0, 0)

@@ -6,6 +6,7 @@
 )]
 
 use pomona_calibrate::{SampleSet, Samples};
+use proptest::prelude::*;
 
 const POINTS: &str = r#"{ "schema": "pomona.calibration-samples/1", "robot_frame": "base_link",
   "points": [
@@ -35,6 +36,21 @@ fn read(text: &str) -> Result<SampleSet, String> {
         );
         message
     })
+}
+
+proptest! {
+    #[test]
+    fn nothing_panics(
+        file in prop::sample::select(vec![POINTS, POSES, POINTS_CSV, POSES_CSV]),
+        at in any::<prop::sample::Index>(), length in 0..20usize, other in "[-0-9a-z\\[\\]{}\",.:\n\u{e9}]{0,6}",
+    ) {
+        let mut text: Vec<char> = file.chars().collect();
+        let start = at.index(text.len());
+        let end = (start + length).min(text.len());
+        text.splice(start..end, other.chars());
+        let text: String = text.into_iter().collect();
+        let _ = read(&text);
+    }
 }
 
 #[test]

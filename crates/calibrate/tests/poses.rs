@@ -302,6 +302,31 @@ fn several_wrong_samples_are_left_out() {
 }
 
 #[test]
+fn the_order_of_the_samples_does_not_matter() {
+    let mut scene = scene(15, false, (3.5e-3, 1e-3), 1.0, 8);
+    flip(&mut scene.samples[6]);
+    let a = calibrate_eye_to_hand(&scene.samples, &Options::default(), &mut rng()).unwrap();
+    scene.samples.reverse();
+    let b = calibrate_eye_to_hand(&scene.samples, &Options::default(), &mut rng()).unwrap();
+    let (a, b) = (a.camera.transform, b.camera.transform);
+    assert!(off(&a.isometry(), &b.isometry()) < 1e-6);
+}
+
+#[test]
+fn a_small_mistake_among_little_noise_is_found_too() {
+    let mut scene = scene(15, false, (5e-4, 1e-4), 1.0, 9);
+    let moved = scene.samples[5].camera_from_target.isometry();
+    let moved = Isometry3::from_parts(
+        Translation3::from(moved.translation.vector + Vector3::new(0.003, 0.0, 0.0)),
+        moved.rotation,
+    );
+    scene.samples[5].camera_from_target = Transform::from_isometry(&moved).unwrap();
+    let found = calibrate_eye_to_hand(&scene.samples, &Options::default(), &mut rng()).unwrap();
+    let rejected = found.quality.samples[5].rejected.as_ref().unwrap();
+    assert_eq!(rejected.cause, RejectionCause::BeyondNoise);
+}
+
+#[test]
 fn the_same_samples_and_seed_give_the_same_bits() {
     let scene = scene(15, false, (3.5e-3, 1e-3), 1.0, 4);
     let a = calibrate_eye_to_hand(&scene.samples, &Options::default(), &mut rng()).unwrap();

@@ -61,7 +61,7 @@
 //!
 //! # Not here
 //!
-//! Finding the transform (calibration), the pixels of a camera (`pomona-cloud`), shapes and
+//! Finding the transform (`pomona-calibrate`), the pixels of a camera (`pomona-cloud`), shapes and
 //! their distances (`pomona-geometry`), the path of a tool and what stands in its way.
 //!
 //! # References

@@ -5,7 +5,7 @@ use nalgebra::{Isometry3, Matrix3, Matrix6, Translation3, UnitQuaternion, Vector
 /// Below this angle, in radians, series replace quotients that lose their digits.
 const SMALL_RAD: f64 = 1e-4;
 
-/// The matrix [v]× with [v]× u = v × u.
+/// The matrix `[v]×` with `[v]× u = v × u`.
 pub fn skew(v: &Vector3<f64>) -> Matrix3<f64> {
     v.cross_matrix()
 }
@@ -45,7 +45,7 @@ pub fn rotation_vector(rotation: &UnitQuaternion<f64>) -> Vector3<f64> {
 }
 
 /// The adjoint of a rigid transform for twists with the rotation first:
-/// T Exp(ξ) T⁻¹ = Exp(Ad ξ), Ad = [R 0; [t]× R  R] (Barfoot and Furgale 2014, Eq. 10).
+/// T Exp(ξ) T⁻¹ = Exp(Ad ξ), `Ad = [R 0; [t]× R  R]` (Barfoot and Furgale 2014, Eq. 10).
 pub fn adjoint(isometry: &Isometry3<f64>) -> Matrix6<f64> {
     let r = isometry.rotation.to_rotation_matrix().into_inner();
     let mut ad = Matrix6::zeros();

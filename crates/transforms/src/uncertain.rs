@@ -162,7 +162,7 @@ impl<To: FrameTag, From: FrameTag> UncertainTransform<To, From> {
         self.transform.rotation().to_rotation_matrix().into_inner()
     }
 
-    /// What the transform's error adds at the place `p` of `To`: J Σ Jᵀ with J = [−[p]× I].
+    /// What the transform's error adds at the place `p` of `To`: `J Σ Jᵀ` with `J = [−[p]× I]`.
     fn at(&self, p: &Vector3<f64>) -> Matrix3<f64> {
         let mut j = nalgebra::Matrix3x6::zeros();
         j.fixed_view_mut::<3, 3>(0, 0).copy_from(&-twist::skew(p));

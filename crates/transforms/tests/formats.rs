@@ -118,8 +118,10 @@ fn what_others_print_is_read() {
     let head = "%YAML:1.0\n---\nnote: \"by hand\"\ncount: 15\n";
     let whole = "pose: !!opencv-matrix\n   rows: 4\n   cols: 4\n   dt: d\n   data: [ 0., -1., 0., 1.0000000000000001e-01, 1., 0., 0.,\n       -2.0000000000000001e-01, 0., 0., 1., 1.3, 0., 0., 0., 1. ]\n";
     let parts = "R: !!opencv-matrix\n   rows: 3\n   cols: 3\n   dt: d\n   data: [ 0., -1., 0., 1., 0., 0., 0., 0., 1. ]\nT: !!opencv-matrix\n   rows: 3\n   cols: 1\n   dt: d\n   data: [ 0.1, -0.2, 1.3 ]\n";
+    // As cv::FileStorage of OpenCV 4.12 wrote it.
+    let written = "pose: !!opencv-matrix\n   rows: 4\n   cols: 4\n   dt: d\n   data: [ 0., -1., 0., 0.10000000000000001, 1., 0., 0.,\n       -0.20000000000000001, 0., 0., 1., 1.3, 0., 0., 0., 1. ]\n";
     let vectors = "rvec: !!opencv-matrix\n   rows: 3\n   cols: 1\n   dt: d\n   data: [ 0., 0., 1.5707963267948966 ]\ntvec: !!opencv-matrix\n   rows: 1\n   cols: 3\n   dt: d\n   data: [ 0.1, -0.2, 1.3 ]\n";
-    for body in [whole, parts, vectors] {
+    for body in [whole, written, parts, vectors] {
         let read: Named =
             from_opencv_yaml(&format!("{head}{body}"), "base_link", "camera_optical").unwrap();
         assert!(apart(&read, &quarter()) < 1e-12, "{body}");

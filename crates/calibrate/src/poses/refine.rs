@@ -117,6 +117,12 @@ pub(crate) fn robust(pairs: &[Pair], inliers: &[usize], start: &Model) -> Option
             break;
         }
     }
+    // Once more with the samples that were kept last, so that the report belongs to the model.
+    let squared: Vec<f64> = pairs
+        .iter()
+        .map(|p| model.offset(p).squared(&noise))
+        .collect();
+    let model = least_squares(pairs, &weigh(&squared, &kept), &model, &noise)?;
     finish(pairs, model, noise, &kept)
 }
 

@@ -9,6 +9,7 @@ mod completions;
 mod config;
 mod convert;
 mod evaluate;
+mod fuse;
 mod inspect;
 mod output_folder;
 mod pick;

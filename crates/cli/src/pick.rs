@@ -1,4 +1,5 @@
 use crate::apple_cloud::{AppleClouds, CloudChoice};
+use crate::fuse;
 #[cfg(feature = "mcap")]
 use crate::output_folder::RECORDING;
 use crate::output_folder::{OutputFolder, PICKS, PICTURE, cloud_name, refuse_foreign, write_text};
@@ -24,7 +25,11 @@ Examples:
   pomona pick frames/a --transform robot_from_camera.json --out out
   pomona pick frames/a --transform robot_from_camera.json --robot robot.toml --ros --out out
   pomona pick frames/a --radius-max-mm 60 --set paper.shell_outer=2.5 --out out
+  pomona pick frames/left frames/right --fuse --out out    out/fused.json beside out/left and out/right
   pomona pick frames/* --out out --json | jq '.[].picks[].direction'
+
+With --fuse, the frames show one tree. A frame's pose is robot_from_camera.json in its folder, else that of \
+--transform: a camera at rest.
 
 A frame is a folder with color.png (or .jpg), depth.png (16 bit, registered to colour), camera.json and boxes \
 (boxes.xml VOC, boxes.json COCO or boxes.txt YOLO).
@@ -64,8 +69,16 @@ pub(crate) struct PickArguments {
     #[cfg(feature = "mcap")]
     #[arg(long, requires = "robot")]
     mcap: bool,
+    /// Combine frames of one tree in the robot's frame: one answer for each apple, how far the tree
+    /// swayed, which apples moved; written to fused.json.
+    #[arg(long)]
+    fuse: bool,
+    /// Write the points of all frames in the robot's frame to fused.ply too, thinned to
+    /// `fusion.voxel_m`.
+    #[arg(long, requires = "fuse")]
+    fused_cloud: bool,
     /// Print the record to standard output in place of the table: one JSON object for one frame, an
-    /// array for several.
+    /// array for several; the fused one with --fuse.
     #[arg(long)]
     json: bool,
     /// Leave picture.png out.
@@ -97,12 +110,16 @@ pub(crate) fn run(arguments: &PickArguments, terminal: Terminal) -> anyhow::Resu
         arguments,
         terminal,
     };
+    if arguments.fuse {
+        fuse::check(&arguments.frames, &arguments.out)?;
+    }
     let jobs = jobs(arguments)?;
+    let poses = run.poses(&jobs)?;
     let bar = progress::bar(jobs.len());
     let mut records = Vec::new();
-    for job in &jobs {
+    for (job, pose) in jobs.iter().zip(&poses) {
         bar.set_message(job.frame.display().to_string());
-        match run.frame(job) {
+        match run.frame(job, pose.as_ref()) {
             Ok(record) => {
                 if !arguments.json {
                     let separator = if records.is_empty() { "" } else { "\n" };
@@ -117,7 +134,27 @@ pub(crate) fn run(arguments: &PickArguments, terminal: Terminal) -> anyhow::Resu
         bar.inc(1);
     }
     bar.finish_and_clear();
-    if arguments.json {
+    let complete = records.len() == jobs.len();
+    if arguments.fuse && complete {
+        let frames = jobs.iter().zip(&records).zip(poses.iter().flatten());
+        let frames: Vec<_> = frames
+            .map(|((job, record), pose)| fuse::FusedInput {
+                folder: &job.frame,
+                record,
+                pose,
+            })
+            .collect();
+        let task = fuse::Task {
+            frames: &frames,
+            out: &arguments.out,
+            cloud: arguments.fused_cloud,
+            json: arguments.json,
+        };
+        task.run(&run.picker.config().fusion, terminal)?;
+    }
+    if arguments.fuse && arguments.json {
+        // The fused record has been printed, where there is one.
+    } else if arguments.json {
         terminal::print(&(json(&records, jobs.len() == 1)? + "\n"))?;
     } else if !records.is_empty() {
         let place = arguments.out.display();
@@ -128,7 +165,11 @@ pub(crate) fn run(arguments: &PickArguments, terminal: Terminal) -> anyhow::Resu
         bail!(
             "{} of {} failed, for the reasons above",
             failed,
-            plural(jobs.len(), "frame")
+            if arguments.fuse {
+                plural(jobs.len(), "frame") + ", and nothing was fused,"
+            } else {
+                plural(jobs.len(), "frame")
+            }
         );
     }
     Ok(())
@@ -207,8 +248,21 @@ struct Run<'a> {
 }
 
 impl Run<'_> {
+    /// The pose of each frame's camera, where one is given.
+    fn poses(&self, jobs: &[Job]) -> anyhow::Result<Vec<Option<RobotFromCamera>>> {
+        jobs.iter()
+            .map(|job| {
+                if self.arguments.fuse {
+                    fuse::pose(&job.frame, self.transform.as_ref()).map(Some)
+                } else {
+                    Ok(self.transform.clone())
+                }
+            })
+            .collect()
+    }
+
     /// Answers one frame and writes its files, all or none.
-    fn frame(&self, job: &Job) -> anyhow::Result<Record> {
+    fn frame(&self, job: &Job, pose: Option<&RobotFromCamera>) -> anyhow::Result<Record> {
         let start = Instant::now();
         let mut frame = Frame::read(&job.frame)?;
         if let Some(path) = &self.arguments.boxes {
@@ -216,12 +270,10 @@ impl Run<'_> {
         }
         log::info!("{}: read in {:.0?}", frame.id, start.elapsed());
         let start = Instant::now();
-        let mut outcome = self
-            .picker
-            .pick(&frame, self.arguments.seed, self.transform.as_ref())?;
+        let mut outcome = self.picker.pick(&frame, self.arguments.seed, pose)?;
         log::info!("{}: picked in {:.0?}", frame.id, start.elapsed());
         let start = Instant::now();
-        let plan = match (&self.robot, &self.transform) {
+        let plan = match (&self.robot, pose) {
             (Some(robot), Some(transform)) => Some(robot.plan(&frame, &mut outcome, transform)?),
             _ => None,
         };

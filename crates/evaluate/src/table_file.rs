@@ -80,12 +80,16 @@ const COLUMNS: &[Column] = &[
 mod tests {
     use super::*;
     use crate::{Subject, evaluate};
-    use pomona::{Config, Picker};
+    use pomona::{Config, Method, Picker};
 
     #[test]
     fn a_row_for_each_apple_and_a_cell_for_each_column() {
         let subjects = Subject::named("lab15", Some(1)).unwrap();
-        let picker = Picker::new(Config::default()).unwrap();
+        let picker = Picker::new(Config {
+            method: Method::Paper,
+            ..Config::default()
+        })
+        .unwrap();
         let evaluation = evaluate(&subjects, &[&picker], 0, &|| {}).unwrap();
         let text = apples_csv(&evaluation).unwrap();
         let mut reader = csv::Reader::from_reader(text.as_bytes());

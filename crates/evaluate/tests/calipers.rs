@@ -1,7 +1,7 @@
 //! Radii and centres of frames whose apples are known.
 
 use nalgebra::{Isometry3, Point3};
-use pomona::{Config, PickError, Picker, Record};
+use pomona::{Config, Method, PickError, Picker, Record};
 use pomona_cloud::Frame;
 use pomona_evaluate::{Caliper, PickMethod, caliper_page, measure_calipers, read_calipers};
 use pomona_scenes::Suite;
@@ -40,7 +40,13 @@ fn two_sights_of_one_tree_are_aligned_and_radii_compared() {
     let [mut first, mut second] = [scene.frame.clone(), scene.frame];
     (first.id, second.id) = ("first".to_owned(), "second".to_owned());
     // Another id draws other numbers, so that the two sights differ a little.
-    let method = Moved(Picker::new(Config::default()).unwrap());
+    let method = Moved(
+        Picker::new(Config {
+            method: Method::Paper,
+            ..Config::default()
+        })
+        .unwrap(),
+    );
     let calipers: Vec<Caliper> = scene
         .truth
         .apples
@@ -72,7 +78,11 @@ fn real_frames_within_the_target() {
     let calipers = read_calipers(folder.join("calipers.csv")).unwrap();
     let frames =
         ["orchard-1218", "orchard-1235"].map(|name| Frame::read(folder.join(name)).unwrap());
-    let picker = Picker::new(Config::default()).unwrap();
+    let picker = Picker::new(Config {
+        method: Method::Paper,
+        ..Config::default()
+    })
+    .unwrap();
     let report = measure_calipers(&frames, &calipers, &[&picker], 0).unwrap();
     let result = &report.results[0];
     assert_eq!(result.apples.len(), 34, "17 apples in each of 2 frames");

@@ -1,12 +1,16 @@
 //! The evaluation as a whole: same answers for any number of threads, several methods side by side, folders.
 
-use pomona::{Config, PickError, Picker, Record};
+use pomona::{Config, Method, PickError, Picker, Record};
 use pomona_cloud::Frame;
 use pomona_evaluate::{EvaluateError, Evaluation, PickMethod, Subject, evaluate};
 use rayon::ThreadPoolBuilder;
 
 fn picker() -> Picker {
-    Picker::new(Config::default()).expect("the default settings make sense")
+    Picker::new(Config {
+        method: Method::Paper,
+        ..Config::default()
+    })
+    .expect("the default settings make sense")
 }
 
 fn run(threads: usize) -> Evaluation {

@@ -9,9 +9,9 @@ use thiserror::Error;
 #[non_exhaustive]
 pub enum Method {
     /// The published one: Gao et al. 2022.
-    #[default]
     Paper,
     /// Ours: a flattened body with priors, branches seen as strips with two edges, answers that know how sure they are.
+    #[default]
     Robust,
 }
 

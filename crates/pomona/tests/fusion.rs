@@ -7,7 +7,7 @@
 
 mod orchard_views;
 
-use nalgebra::{Isometry3, Matrix3, Matrix6, Translation3, UnitQuaternion, Vector3};
+use nalgebra::{Isometry3, Matrix3, Matrix6, Point3, Translation3, UnitQuaternion, Vector3};
 use orchard_views::{pose_towards, views};
 use pomona::{
     DirectionUse, FusedStatus, Fusion, FusionConfig, FusionError, PosedRecord, Record,
@@ -88,7 +88,7 @@ impl Trial {
         );
         let mut picks = Vec::new();
         for (i, apple) in tree.iter().enumerate() {
-            let truth = pose.inverse() * (apple.center + view.sway);
+            let truth = (pose.inverse() * Point3::from(apple.center + view.sway)).coords;
             let sight = truth.normalize();
             let covariance = Matrix3::identity() * 1e-6 + sight * sight.transpose() * 8e-6;
             let factor = covariance.cholesky().unwrap().l();
@@ -192,8 +192,8 @@ fn fused_places_are_better_than_each_frame_and_their_covariance_is_true() {
             angles += Vector3::from(apple.direction.unwrap()).angle(&truth.direction);
             for (record, pose) in &frames {
                 let pick = &record.picks[apple.sightings[0].pick];
-                let center = pose.transform.isometry()
-                    * nalgebra::Point3::from(pick.apple.as_ref().unwrap().center);
+                let center =
+                    pose.transform.isometry() * Point3::from(pick.apple.as_ref().unwrap().center);
                 single += (center.coords - truth.center).norm() / 3.0;
                 let direction = pose.transform.rotation() * Vector3::from(pick.direction.unwrap());
                 singles += direction.angle(&truth.direction) / 3.0;
@@ -247,6 +247,7 @@ fn sway_is_no_movement_and_is_measured() {
 
 #[test]
 fn the_apple_that_moved_is_found_among_those_that_swayed() {
+    let mut off = 0.0;
     for seed in 0..40 {
         let mut trial = Trial::new(200 + seed);
         let tree = trial.tree(8);
@@ -269,15 +270,14 @@ fn the_apple_that_moved_is_found_among_those_that_swayed() {
         let movement = moved[0].moved.as_ref().unwrap();
         assert_eq!(moved[0].sightings[0].pick, 3);
         assert_eq!(movement.frames, [0]);
-        assert!(
-            (Vector3::from(movement.by) - way).norm() < 0.012,
-            "{:?}",
-            movement.by
-        );
+        let error = (Vector3::from(movement.by) - way).norm();
+        assert!(error < 0.02, "{movement:?}");
+        off += error / 40.0;
         assert_eq!(moved[0].sightings[0].direction, DirectionUse::Stale);
         assert!(moved[0].reason.contains("moved"));
         assert_eq!(fusion.record.apples.len(), 8);
     }
+    assert!(off < 0.007, "{off}");
 }
 
 #[test]
@@ -491,7 +491,7 @@ fn rendered_orchards_from_three_poses() {
                     .map(|s| {
                         let (record, pose) = &scene.frames[s.frame];
                         let center = record.picks[s.pick].apple.as_ref().unwrap().center;
-                        error((pose.transform.isometry() * nalgebra::Point3::from(center)).into())
+                        error((pose.transform.isometry() * Point3::from(center)).into())
                     })
                     .collect();
                 together += error(apple.center);

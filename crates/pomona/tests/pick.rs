@@ -6,7 +6,7 @@
 )]
 
 use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3};
-use pomona::{Config, PickError, Picker, RobotFromCamera, Status};
+use pomona::{Config, Method, PickError, Picker, RobotFromCamera, Status};
 use pomona_cloud::{DepthImage, PixelBox};
 use pomona_scenes::{Scene, Suite};
 use pomona_transforms::Transform;
@@ -21,7 +21,11 @@ fn lab(orientation: &str) -> Scene {
 }
 
 fn picker() -> Picker {
-    Picker::new(Config::default()).unwrap()
+    Picker::new(Config {
+        method: Method::Paper,
+        ..Config::default()
+    })
+    .unwrap()
 }
 
 fn degrees_between(a: [f64; 3], b: [f64; 3]) -> f64 {
@@ -128,7 +132,10 @@ fn each_refusal_has_its_status() {
     let b = &mut tiny.frame.boxes.as_mut().unwrap()[0];
     (b.x_max, b.y_max) = (b.x_min + 4.0, b.y_min + 4.0);
     let config = |edit: fn(&mut Config)| {
-        let mut config = Config::default();
+        let mut config = Config {
+            method: Method::Paper,
+            ..Config::default()
+        };
         edit(&mut config);
         Picker::new(config).unwrap()
     };

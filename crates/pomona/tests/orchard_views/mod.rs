@@ -9,6 +9,12 @@ use pomona_transforms::Transform;
 pub struct Views {
     pub frames: Vec<(Record, RobotFromCamera)>,
     pub centers: Vec<Vector3<f64>>,
+    /// The true direction of each apple that a frame boxes.
+    #[allow(
+        dead_code,
+        reason = "not every program that shares this file asks for it"
+    )]
+    pub directions: Vec<Option<Vector3<f64>>>,
 }
 
 /// A camera at `distance` from `target`, turned about it by `angle` from the robot's side and raised by `up`,
@@ -37,6 +43,7 @@ pub fn views(seed: u64) -> Views {
         ..Config::default()
     })
     .unwrap();
+    let mut directions = vec![None; world.apples().len()];
     let frames = [0.0, -0.35, 0.35]
         .into_iter()
         .enumerate()
@@ -54,7 +61,15 @@ pub fn views(seed: u64) -> Views {
                 sensor,
                 seed * 10 + k as u64,
             );
-            let frame = shot.take(&seen).frame;
+            let scene = shot.take(&seen);
+            let frame = scene.frame;
+            for truth in &scene.truth.apples {
+                let center = pose * Point3::from(truth.center);
+                let at = |a: &pomona_scenes::Apple| (first * a.center - center).norm() < 1e-6;
+                if let (Some(i), Some(d)) = (world.apples().iter().position(at), truth.direction) {
+                    directions[i] = Some(pose * Vector3::from(d));
+                }
+            }
             let transform = Transform::from_isometry(&pose).unwrap();
             let named = RobotFromCamera::new(transform, "base_link", camera.frame_id.clone());
             let outcome = picker.pick(&frame, 0, Some(&named)).unwrap();
@@ -66,5 +81,9 @@ pub fn views(seed: u64) -> Views {
         .iter()
         .map(|a| (first * a.center).coords)
         .collect();
-    Views { frames, centers }
+    Views {
+        frames,
+        centers,
+        directions,
+    }
 }

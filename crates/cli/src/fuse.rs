@@ -1,0 +1,222 @@
+use crate::summary::plural;
+use crate::terminal::{self, FAINT, GOOD, HEADING, REFUSED, Terminal, one_line};
+use anyhow::{anyhow, bail};
+use pomona::{
+    DirectionUse, FusedApple, FusedCloud, FusedRecord, FusedStatus, Fusion, FusionConfig,
+    PosedRecord, Record, RobotFromCamera,
+};
+use pomona_cloud::{CloudFormat, Frame};
+use serde::Deserialize;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// The fused answers.
+const FUSED: &str = "fused.json";
+/// The fused cloud.
+const CLOUD: &str = "fused.ply";
+/// The pose of a frame's camera, in the frame's folder.
+const POSE: &str = "robot_from_camera.json";
+
+/// One frame, answered.
+pub(crate) struct FusedInput<'a> {
+    pub(crate) folder: &'a Path,
+    pub(crate) record: &'a Record,
+    pub(crate) pose: &'a RobotFromCamera,
+}
+
+/// What is to be fused, and where it goes.
+pub(crate) struct Task<'a> {
+    pub(crate) frames: &'a [FusedInput<'a>],
+    pub(crate) out: &'a Path,
+    pub(crate) cloud: bool,
+    pub(crate) json: bool,
+}
+
+/// Refuses what cannot be fused before any work is done.
+pub(crate) fn check(frames: &[PathBuf], out: &Path) -> anyhow::Result<()> {
+    if frames.len() < 2 {
+        bail!("--fuse takes at least two frames of one tree, and one is given");
+    }
+    let mut seen: Vec<(PathBuf, &PathBuf)> = Vec::new();
+    for frame in frames {
+        // What cannot be read is reported where it is read.
+        let full = frame.canonicalize().unwrap_or_else(|_| frame.clone());
+        if let Some((_, first)) = seen.iter().find(|(known, _)| *known == full) {
+            bail!(
+                "{} and {}: the same frame is given twice; --fuse takes each once",
+                first.display(),
+                frame.display()
+            );
+        }
+        seen.push((full, frame));
+    }
+    let (record, cloud) = (out.join(FUSED), out.join(CLOUD));
+    if record.exists() {
+        if !is_fused(&record) {
+            bail!(
+                "{}: is not a result of this program; name another folder by --out",
+                record.display()
+            );
+        }
+    } else if cloud.exists() {
+        bail!(
+            "{}: would be replaced, and no {FUSED} says that this program wrote it; name another folder by --out",
+            cloud.display()
+        );
+    }
+    Ok(())
+}
+
+fn is_fused(path: &Path) -> bool {
+    #[derive(Deserialize)]
+    struct Head {
+        schema: String,
+    }
+    let head = fs::read(path)
+        .ok()
+        .and_then(|bytes| serde_json::from_slice::<Head>(&bytes).ok());
+    head.is_some_and(|head| head.schema.starts_with("pomona.fused/"))
+}
+
+/// The pose of a frame's camera: that in its folder, else the one for all.
+pub(crate) fn pose(
+    folder: &Path,
+    of_all: Option<&RobotFromCamera>,
+) -> anyhow::Result<RobotFromCamera> {
+    let own = folder.join(POSE);
+    if own.exists() {
+        return Ok(RobotFromCamera::read(own)?);
+    }
+    of_all.cloned().ok_or_else(|| {
+        anyhow!(
+            "{}: no pose of its camera: --fuse needs {POSE} in the folder of each frame, or --transform FILE for a \
+             camera at rest",
+            folder.display()
+        )
+    })
+}
+
+impl Task<'_> {
+    /// Fuses, writes and prints.
+    pub(crate) fn run(&self, config: &FusionConfig, terminal: Terminal) -> anyhow::Result<()> {
+        let posed: Vec<PosedRecord<'_>> = self
+            .frames
+            .iter()
+            .map(|frame| PosedRecord {
+                record: frame.record,
+                robot_from_camera: frame.pose,
+            })
+            .collect();
+        let fusion = pomona::fuse(&posed, config)?;
+        self.write(&fusion, config)?;
+        if self.json {
+            terminal::print(&(serde_json::to_string_pretty(&fusion.record)? + "\n"))
+        } else {
+            terminal::print(&("\n".to_owned() + &table(&fusion.record, terminal)))
+        }
+    }
+
+    /// The cloud first: whoever waits for the answers finds it in place.
+    fn write(&self, fusion: &Fusion, config: &FusionConfig) -> anyhow::Result<()> {
+        let cloud = self.out.join(CLOUD);
+        if self.cloud {
+            let mut fused = FusedCloud::new(config.voxel_m);
+            for (input, correction) in self.frames.iter().zip(&fusion.corrections) {
+                let frame = Frame::read(input.folder)?;
+                fused.add(&frame, input.pose, correction)?;
+            }
+            fused
+                .cloud()
+                .write(&cloud, CloudFormat::PlyBinaryLittleEndian)?;
+        } else if cloud.exists() {
+            fs::remove_file(&cloud).map_err(|e| refused(&cloud, &e))?;
+        }
+        let record = self.out.join(FUSED);
+        let part = self
+            .out
+            .join(format!(".pomona-{}.part", std::process::id()));
+        let text = serde_json::to_string_pretty(&fusion.record)? + "\n";
+        let written = fs::write(&part, text).and_then(|()| fs::rename(&part, &record));
+        written.map_err(|e| {
+            // The first error is the one to report.
+            let _ = fs::remove_file(&part);
+            refused(&record, &e)
+        })
+    }
+}
+
+fn refused(path: &Path, error: &std::io::Error) -> anyhow::Error {
+    anyhow!(
+        "{}: cannot be written: {error}; check that the place is writable and has room",
+        path.display()
+    )
+}
+
+/// What a person reads of the fused answers.
+fn table(record: &FusedRecord, terminal: Terminal) -> String {
+    let title = format!(
+        "fused in {}: {} from {}",
+        one_line(&record.frame_id),
+        plural(record.apples.len(), "apple"),
+        plural(record.frames.len(), "frame")
+    );
+    let mut text = terminal.paint(HEADING, &title) + "\n";
+    let header = format!(
+        "{:>3}  {:<13}  {:>8} {:>8} {:>8} {:>6}  {:>5}  {:>6}  {:>6}  {:>8}  reason",
+        "id", "status", "x mm", "y mm", "z mm", "sd mm", "r mm", "sd deg", "sure %", "moved mm"
+    );
+    text += &(terminal.paint(FAINT, &header) + "\n");
+    for apple in &record.apples {
+        text += &(row(apple, terminal) + "\n");
+    }
+    for (k, frame) in record.frames.iter().enumerate().skip(1) {
+        let name = one_line(&frame.id);
+        text += &match &frame.shift {
+            Some(shift) => format!(
+                "{name}: {} shared, {:.1} ± {:.1} mm off the first frame{}\n",
+                plural(frame.shared, "apple"),
+                shift.distance * 1e3,
+                shift.sd * 1e3,
+                if shift.significant {
+                    ": the tree swayed, or a pose is off"
+                } else {
+                    ""
+                }
+            ),
+            None => format!("{name}: frame {k} shares no apple with another\n"),
+        };
+    }
+    text
+}
+
+fn row(apple: &FusedApple, terminal: Terminal) -> String {
+    let sd = (0..3).map(|i| apple.center_covariance[i][i]).sum::<f64>() / 3.0;
+    let or_dash = |value: Option<String>| value.unwrap_or_else(|| "-".to_owned());
+    let style = if apple.status == FusedStatus::Picked {
+        GOOD
+    } else {
+        REFUSED
+    };
+    let status = terminal.paint(style, &format!("{:<13}", apple.status.name()));
+    let [x, y, z] = apple.center.map(|c| c * 1e3);
+    let outlier = apple
+        .sightings
+        .iter()
+        .any(|s| s.direction == DirectionUse::Outlier);
+    format!(
+        "{:>3}  {status}  {x:>8.1} {y:>8.1} {z:>8.1} {:>6.1}  {:>5.1}  {:>6}  {:>6}  {:>8}  {}{}",
+        apple.id,
+        sd.max(0.0).sqrt() * 1e3,
+        apple.radius * 1e3,
+        or_dash(apple.direction_sd.map(|s| format!("{:.1}", s.to_degrees()))),
+        or_dash(apple.confidence.map(|c| format!("{:.0}", c * 100.0))),
+        or_dash(
+            apple
+                .moved
+                .as_ref()
+                .map(|m| format!("{:.1}", m.distance * 1e3))
+        ),
+        apple.reason,
+        if outlier { " (others dropped)" } else { "" }
+    )
+}

@@ -10,7 +10,7 @@ mod orchard_views;
 use nalgebra::{Isometry3, Matrix3, Matrix6, Point3, Translation3, UnitQuaternion, Vector3};
 use orchard_views::{pose_towards, views};
 use pomona::{
-    DirectionUse, FusedStatus, Fusion, FusionConfig, FusionError, PosedRecord, Record,
+    DirectionUse, FusedStatus, Fusion, FusionConfig, FusionError, PlaceUse, PosedRecord, Record,
     RobotFromCamera, fuse,
 };
 use pomona_transforms::Transform;
@@ -508,4 +508,25 @@ fn rendered_orchards_from_three_poses() {
         together / count * 1e3,
         single / count * 1e3
     );
+}
+
+#[test]
+fn a_place_seen_badly_is_a_misfit_and_no_movement() {
+    let mut trial = Trial::new(200);
+    let tree = trial.tree(8);
+    let mut after = tree.clone();
+    after[3].center += Vector3::new(0.02, 0.02, 0.0);
+    let first = trial.record("a", &tree, &still(-0.4));
+    let mut second = trial.record("b", &after, &still(0.4));
+    second.0.picks[3].apple.as_mut().unwrap().visible_share = Some(0.1);
+    let fusion = fused(&[first, second], &exact());
+    assert_eq!(fusion.record.apples.len(), 8);
+    let apple = &fusion.record.apples[3];
+    assert!(
+        apple.moved.is_none() && apple.reason.contains("misfit"),
+        "{}",
+        apple.reason
+    );
+    assert_eq!(apple.sightings[1].place, PlaceUse::Misfit);
+    assert!((Vector3::from(apple.center) - tree[3].center).norm() < 0.012);
 }

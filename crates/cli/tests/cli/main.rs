@@ -9,6 +9,7 @@ mod bad_files;
 mod bad_frames;
 mod binary;
 mod convert;
+mod fuse;
 mod inspect;
 mod pick;
 mod real_frames;

@@ -225,6 +225,82 @@ pub(crate) const SETTINGS: &[Setting] = &[
         "probability",
         "Answers with a smaller confidence are refused. Higher: fewer and better answers.",
     ),
+    setting(
+        "fallback.kind",
+        "name",
+        "What a refused apple with a sphere gets beside its refusal: none, surface_normal (from the side that shows) or away_from_obstacle (from the side that faces away from the nearest obstacle). A guess, labelled as such.",
+    ),
+    setting(
+        "fusion.moved_rate",
+        "share",
+        "Of pairs of sightings of one apple at rest, those that may be called moved. Smaller: small movements are taken for noise.",
+    ),
+    setting(
+        "fusion.direction_rate",
+        "share",
+        "Of right directions, those that may be dropped for contradicting the other frames.",
+    ),
+    setting(
+        "fusion.center_sd_m",
+        "metres",
+        "Standard deviation of a centre along each axis where a frame states none (method paper).",
+    ),
+    setting(
+        "fusion.center_floor_m",
+        "metres",
+        "Added to a stated one for what the method cannot know. Larger: fewer false movements, and small ones are overlooked.",
+    ),
+    setting("fusion.radius_floor_m", "metres", "The same for a radius."),
+    setting(
+        "fusion.direction_sd_rad",
+        "radians",
+        "Standard deviation of a direction where a frame states none (method paper).",
+    ),
+    setting(
+        "fusion.direction_floor_rad",
+        "radians",
+        "Added to a stated one.",
+    ),
+    setting(
+        "fusion.sway_sd_m",
+        "metres",
+        "Standard deviation, along each axis, of the way that a whole tree may sway between frames, or a pose may be off beyond what it states. 0: nothing sways.",
+    ),
+    setting(
+        "fusion.sway_sd_rad",
+        "radians",
+        "The same for turning, about each axis.",
+    ),
+    setting(
+        "fusion.moved_reach",
+        "share",
+        "Two places are of one moved apple up to this share of the sum of their radii; farther apart are two apples.",
+    ),
+    setting(
+        "fusion.moved_visible",
+        "share",
+        "Least visible share of an apple at both places for it to have moved; what is seen worse is a misfit.",
+    ),
+    setting(
+        "fusion.confidence",
+        "probability",
+        "Confidence of a direction where a frame states none (method paper).",
+    ),
+    setting(
+        "fusion.repeated_error",
+        "share",
+        "Of wrong directions, those that another frame repeats. Larger: agreement counts for less.",
+    ),
+    setting(
+        "fusion.least_confidence",
+        "probability",
+        "Fused answers with a smaller confidence are refused. Higher: fewer and better answers.",
+    ),
+    setting(
+        "fusion.voxel_m",
+        "metres",
+        "Edge of the cells in which the points of the fused cloud are joined.",
+    ),
 ];
 
 /// Flags that choose settings; later ones of this list win over earlier ones.

@@ -75,7 +75,25 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let mut known = vec![0; views.centers.len()];
         for apple in &fusion.record.apples {
             apples += 1;
-            moved += usize::from(apple.moved.is_some());
+            if let Some(movement) = &apple.moved {
+                moved += 1;
+                println!(
+                    "scene {seed}: moved {:.1} ± {:.1} mm: {}",
+                    movement.distance * 1e3,
+                    movement.sd * 1e3,
+                    apple.reason
+                );
+                for s in &apple.sightings {
+                    let own = views.frames[s.frame].0.picks[s.pick].apple.as_ref();
+                    let radius = own.map_or(0.0, |a| a.radius);
+                    let visible = own.and_then(|a| a.visible_share).unwrap_or(0.0);
+                    let sd = own.and_then(|a| a.radius_sd).unwrap_or(0.0);
+                    println!(
+                        "  frame {}: radius {radius:.4} ± {sd:.4}, visible {visible:.2}",
+                        s.frame
+                    );
+                }
+            }
             contradictions += usize::from(apple.status == pomona::FusedStatus::Contradiction);
             let Some(truth) = nearest(&views, apple) else {
                 continue;

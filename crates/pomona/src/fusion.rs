@@ -15,7 +15,7 @@ pub use cloud::FusedCloud;
 pub use error::FusionError;
 pub use record::{
     DirectionUse, FUSED_SCHEMA, FusedApple, FusedFrame, FusedRecord, FusedStatus, MovedRecord,
-    ShiftRecord, SightingRecord,
+    PlaceUse, ShiftRecord, SightingRecord,
 };
 pub use settings::FusionConfig;
 
@@ -50,7 +50,8 @@ pub struct Fusion {
 /// Apples are joined by the Mahalanobis distance of their centres, each with at most one of every other
 /// frame. All places are estimated together with a small common motion of each frame (sway of the tree, errors of
 /// the poses), so that the errors that the apples of a frame share are counted once. What then
-/// lies beyond the gate has `moved` by itself if its two places overlap; else they are two apples. An apple that one frame
+/// lies beyond the gate, while the bodies of the two places overlap, is one apple: it has `moved` by itself if both places are
+/// well seen, else the place that is seen worse is a misfit. Without an overlap they are two apples. An apple that one frame
 /// alone shows is kept.
 ///
 /// Poses that are all one and the same are taken for a camera at rest: their stated error is common to all frames, adds

@@ -75,7 +75,8 @@ pub use error::PickError;
 pub use fallback::{DirectionSource, FallbackConfig, FallbackKind};
 pub use fusion::{
     DirectionUse, FUSED_SCHEMA, FusedApple, FusedCloud, FusedFrame, FusedRecord, FusedStatus,
-    Fusion, FusionConfig, FusionError, MovedRecord, PosedRecord, ShiftRecord, SightingRecord, fuse,
+    Fusion, FusionConfig, FusionError, MovedRecord, PlaceUse, PosedRecord, ShiftRecord,
+    SightingRecord, fuse,
 };
 pub use picker::{Evidence, Outcome, Picker, RobotFromCamera};
 pub use plan_record::{

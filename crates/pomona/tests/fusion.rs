@@ -5,132 +5,16 @@
     reason = "a test that cannot go on should fail where it stands"
 )]
 
+mod drawn_tree;
 mod orchard_views;
 
-use nalgebra::{Isometry3, Matrix3, Matrix6, Point3, Translation3, UnitQuaternion, Vector3};
-use orchard_views::{pose_towards, views};
+use drawn_tree::{Trial, View, still};
+use nalgebra::{Matrix3, Matrix6, Point3, Vector3};
+use orchard_views::views;
 use pomona::{
-    DirectionUse, FusedStatus, Fusion, FusionConfig, FusionError, PosedRecord, Record,
+    DirectionUse, FusedStatus, Fusion, FusionConfig, FusionError, PlaceUse, PosedRecord, Record,
     RobotFromCamera, fuse,
 };
-use pomona_transforms::Transform;
-use rand::{RngExt, SeedableRng};
-use rand_chacha::ChaCha8Rng;
-
-const CAMERA: &str = "camera_color_optical_frame";
-
-/// An apple of the tree, in the robot's frame.
-#[derive(Clone, Copy)]
-struct Apple {
-    center: Vector3<f64>,
-    radius: f64,
-    direction: Vector3<f64>,
-}
-
-/// What one frame does to the truth.
-#[derive(Clone, Copy)]
-struct View {
-    angle: f64,
-    sway: Vector3<f64>,
-    pose_sd: (f64, f64),
-}
-
-fn array(v: Vector3<f64>) -> [f64; 3] {
-    v.into()
-}
-
-struct Trial {
-    rng: ChaCha8Rng,
-}
-
-impl Trial {
-    fn new(seed: u64) -> Self {
-        Self {
-            rng: ChaCha8Rng::seed_from_u64(seed),
-        }
-    }
-
-    fn normal(&mut self) -> f64 {
-        (0..12).map(|_| self.rng.random::<f64>()).sum::<f64>() - 6.0
-    }
-
-    fn normals(&mut self) -> Vector3<f64> {
-        Vector3::new(self.normal(), self.normal(), self.normal())
-    }
-
-    fn tree(&mut self, apples: usize) -> Vec<Apple> {
-        let mut tree: Vec<Apple> = Vec::new();
-        while tree.len() < apples {
-            let mut between = |a: f64, b: f64| self.rng.random_range(a..b);
-            let center = Vector3::new(between(0.7, 1.0), between(-0.4, 0.4), between(0.2, 0.8));
-            let radius = between(0.030, 0.044);
-            let direction = Vector3::new(between(-0.5, 0.5), between(-0.5, 0.5), 1.0).normalize();
-            let apple = Apple {
-                center,
-                radius,
-                direction,
-            };
-            let free = |other: &Apple| (other.center - center).norm() > other.radius + radius;
-            if tree.iter().all(free) {
-                tree.push(apple);
-            }
-        }
-        tree
-    }
-
-    /// A record with the stated errors: 1 mm across, 3 mm along the line of sight, 2 degrees.
-    fn record(&mut self, id: &str, tree: &[Apple], view: &View) -> (Record, RobotFromCamera) {
-        let pose = pose_towards(Vector3::new(0.85, 0.0, 0.5), 0.85, view.angle, 0.1);
-        let (turn, shift) = view.pose_sd;
-        let error = Isometry3::from_parts(
-            Translation3::from(self.normals() * shift),
-            UnitQuaternion::from_scaled_axis(self.normals() * turn),
-        );
-        let mut picks = Vec::new();
-        for (i, apple) in tree.iter().enumerate() {
-            let truth = (pose.inverse() * Point3::from(apple.center + view.sway)).coords;
-            let sight = truth.normalize();
-            let covariance = Matrix3::identity() * 1e-6 + sight * sight.transpose() * 8e-6;
-            let factor = covariance.cholesky().unwrap().l();
-            let center = truth + factor * self.normals();
-            let radius = apple.radius + 5e-4 * self.normal();
-            let tilt = UnitQuaternion::from_scaled_axis(self.normals() * 0.035);
-            let direction = tilt * (pose.inverse().rotation * apple.direction);
-            picks.push(serde_json::json!({
-                "id": i,
-                "box": {"name": i.to_string(), "x_min": 0, "y_min": 0, "x_max": 9, "y_max": 9, "score": 1.0},
-                "status": "picked",
-                "apple": {"center": array(center), "radius": radius, "inliers": 100, "rms": 0.001,
-                          "center_covariance": <[[f64; 3]; 3]>::from(covariance), "radius_sd": 5e-4},
-                "foot": array(center + direction * 1.1 * radius),
-                "direction": array(direction), "direction_sd": 0.035, "confidence": 0.8,
-                "timing_ms": {"crop": 0.0, "sphere": 0.0, "branch": 0.0, "total": 0.0}
-            }));
-        }
-        let record = serde_json::from_value(serde_json::json!({
-            "schema": "pomona.picks/1", "method": "robust", "seed": 0,
-            "frame": {"id": id, "frame_id": CAMERA}, "picks": picks
-        }));
-        // What is stated is off by the error: the true pose is Exp(error) of it, in the robot's axes.
-        let stated = Transform::from_isometry(&(error.inverse() * pose)).unwrap();
-        let mut named = RobotFromCamera::new(stated, "base_link", CAMERA);
-        let mut covariance = Matrix6::zeros();
-        for i in 0..3 {
-            covariance[(i, i)] = turn * turn;
-            covariance[(i + 3, i + 3)] = shift * shift;
-        }
-        named.covariance = Some(covariance);
-        (record.unwrap(), named)
-    }
-}
-
-fn still(angle: f64) -> View {
-    View {
-        angle,
-        sway: Vector3::zeros(),
-        pose_sd: (0.0, 0.0),
-    }
-}
 
 fn fused(frames: &[(Record, RobotFromCamera)], config: &FusionConfig) -> Fusion {
     let posed: Vec<PosedRecord> = frames
@@ -508,4 +392,25 @@ fn rendered_orchards_from_three_poses() {
         together / count * 1e3,
         single / count * 1e3
     );
+}
+
+#[test]
+fn a_place_seen_badly_is_a_misfit_and_no_movement() {
+    let mut trial = Trial::new(200);
+    let tree = trial.tree(8);
+    let mut after = tree.clone();
+    after[3].center += Vector3::new(0.02, 0.02, 0.0);
+    let first = trial.record("a", &tree, &still(-0.4));
+    let mut second = trial.record("b", &after, &still(0.4));
+    second.0.picks[3].apple.as_mut().unwrap().visible_share = Some(0.1);
+    let fusion = fused(&[first, second], &exact());
+    assert_eq!(fusion.record.apples.len(), 8);
+    let apple = &fusion.record.apples[3];
+    assert!(
+        apple.moved.is_none() && apple.reason.contains("misfit"),
+        "{}",
+        apple.reason
+    );
+    assert_eq!(apple.sightings[1].place, PlaceUse::Misfit);
+    assert!((Vector3::from(apple.center) - tree[3].center).norm() < 0.012);
 }

@@ -10,6 +10,7 @@ mod bad_frames;
 mod binary;
 mod calibrate;
 mod convert;
+mod fuse;
 mod inspect;
 mod pick;
 mod real_frames;

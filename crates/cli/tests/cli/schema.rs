@@ -138,3 +138,46 @@ fn truth() {
     schema.refuses(&truth, "/apples/0/center", None);
     schema.refuses(&truth, "/apples/0/radius", Some(json!(0)));
 }
+
+#[test]
+fn fused_frames_and_fallbacks() {
+    let bench = crate::fuse::bench();
+    let (left, right, out) = (bench.text("left"), bench.text("right"), bench.text("out"));
+    let run = ["pick", &left, &right, "--fuse", "--out", &out];
+    let refuse_all = [
+        "--set",
+        "robust.least_confidence=1",
+        "--set",
+        "fallback.kind=\"surface_normal\"",
+        "--method",
+        "robust",
+    ];
+    let schema = Schema::read("fused.schema.json");
+    pomona(&run).succeeded();
+    let fused = bench.read_json("out/fused.json");
+    schema.accepts(&fused);
+    schema.refuses(&fused, "/apples/0/extra", Some(json!(1)));
+    schema.refuses(&fused, "/apples/0/direction", None);
+    schema.refuses(
+        &fused,
+        "/apples/0/sightings/0/place",
+        Some(json!("somewhere")),
+    );
+    pomona(&[&run[..], &refuse_all[..]].concat()).succeeded();
+    let refused = bench.read_json("out/fused.json");
+    assert_eq!(refused["apples"][0]["status"], "no_direction");
+    schema.accepts(&refused);
+    let picks = bench.read_json("out/left/picks.json");
+    let schema = Schema::read("picks.schema.json");
+    schema.accepts(&picks);
+    assert_eq!(
+        picks["picks"][0]["fallback"]["direction_source"],
+        "surface_normal"
+    );
+    schema.refuses(&picks, "/picks/0/status", Some(json!("picked")));
+    schema.refuses(
+        &picks,
+        "/picks/0/fallback/direction_source",
+        Some(json!("branch")),
+    );
+}

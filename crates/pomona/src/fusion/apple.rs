@@ -4,7 +4,7 @@ use super::associate::mutual_best;
 use super::chi_square::bound_2;
 use super::direction::{Combined, angle, combine};
 use super::joint::{Joint, Track, jacobian, squared_distance};
-use super::record::{DirectionUse, FusedApple, FusedStatus, MovedRecord, SightingRecord};
+use super::record::{DirectionUse, FusedApple, FusedStatus, MovedRecord, PlaceUse, SightingRecord};
 use super::settings::FusionConfig;
 use super::sighting::{DirectionSighting, Sighting};
 use nalgebra::{Matrix6, Vector3};
@@ -22,23 +22,31 @@ pub(crate) struct AppleFusion<'a> {
     pub(crate) config: &'a FusionConfig,
 }
 
+/// Another track of the same apple.
+#[derive(Clone, Copy)]
+struct Link {
+    other: usize,
+    /// Whether it has moved; else the other place is a misfit.
+    moved: bool,
+}
+
 impl AppleFusion<'_> {
     /// All apples, in the order in which the frames show them first.
     pub(crate) fn all(&self) -> Vec<FusedApple> {
-        let movements = self.movements();
-        let gone: Vec<usize> = movements.iter().flatten().copied().collect();
+        let links = self.links();
+        let gone: Vec<usize> = links.iter().flatten().map(|l| l.other).collect();
         let mut order: Vec<usize> = (0..self.tracks.len())
             .filter(|a| !gone.contains(a))
             .collect();
         order.sort_by_key(|&a| {
-            let other = movements[a].map(|b| &self.tracks[b]);
+            let other = links[a].map(|l| &self.tracks[l.other]);
             let all = self.tracks[a].iter().chain(other.into_iter().flatten());
             all.min()
         });
         order
             .into_iter()
             .enumerate()
-            .map(|(id, a)| self.apple(id, a, movements[a]))
+            .map(|(id, a)| self.apple(id, a, links[a]))
             .collect()
     }
 
@@ -58,33 +66,48 @@ impl AppleFusion<'_> {
         frames.max().unwrap_or(0)
     }
 
-    /// For each track the one that is the same apple at another place, where it stood earlier.
+    /// Largest visible share among a track's sightings; a method that states none is trusted.
+    fn visible(&self, track: &[usize]) -> f64 {
+        let shares = track.iter().map(|&i| self.sightings[i].visible_share);
+        shares.fold(0.0, f64::max)
+    }
+
+    /// For each track the one that is the same apple at another place.
     ///
-    /// Two bodies cannot be in one place: tracks of different frames whose spheres overlap are one apple.
-    fn movements(&self) -> Vec<Option<usize>> {
+    /// Two bodies cannot be in one place: tracks of different frames whose spheres overlap are one apple. It has moved
+    /// where both places are well seen and the radii agree; else the place that is seen worse is a misfit.
+    fn links(&self) -> Vec<Option<Link>> {
         let n = self.tracks.len();
         let frames = |a: usize| self.tracks[a].iter().map(move |&i| self.sightings[i].frame);
-        let radii: Vec<f64> = self.tracks.iter().map(|t| self.radius(t).0).collect();
+        let radii: Vec<(f64, f64)> = self.tracks.iter().map(|t| self.radius(t)).collect();
         let overlap = |a: usize, b: usize| {
             if a == b || frames(a).any(|f| frames(b).any(|g| f == g)) {
                 return f64::INFINITY;
             }
             let way = self.joint.places[a].center - self.joint.places[b].center;
-            let share = way.norm() / (radii[a] + radii[b]);
-            let beyond = squared_distance(&way, &self.joint.difference(a, b)) > self.gate;
-            if beyond { share } else { f64::INFINITY }
+            way.norm() / (radii[a].0 + radii[b].0)
         };
         let pairs = mutual_best(n, n, self.config.moved_reach, overlap);
-        (0..n)
-            .map(|a| {
-                let b = pairs[a]?;
-                let later = self.last_frame(&self.tracks[a]) > self.last_frame(&self.tracks[b]);
-                later.then_some(b)
-            })
-            .collect()
+        let link = |a: usize| {
+            let b = pairs[a]?;
+            let seen = [a, b].map(|t| self.visible(&self.tracks[t]));
+            let variance = radii[a].1.powi(2) + radii[b].1.powi(2);
+            let alike = (radii[a].0 - radii[b].0).powi(2) <= self.gate * variance;
+            let way = self.joint.places[a].center - self.joint.places[b].center;
+            let beyond = squared_distance(&way, &self.joint.difference(a, b)) > self.gate;
+            let moved = beyond && alike && seen.iter().all(|v| *v >= self.config.moved_visible);
+            let last = [a, b].map(|t| self.last_frame(&self.tracks[t]));
+            let leads = if moved || seen[0] == seen[1] {
+                last[0] > last[1]
+            } else {
+                seen[0] > seen[1]
+            };
+            leads.then_some(Link { other: b, moved })
+        };
+        (0..n).map(link).collect()
     }
 
-    fn apple(&self, id: usize, a: usize, earlier: Option<usize>) -> FusedApple {
+    fn apple(&self, id: usize, a: usize, link: Option<Link>) -> FusedApple {
         let place = &self.joint.places[a];
         let current = &self.tracks[a];
         let mut covariance = place.covariance;
@@ -93,9 +116,10 @@ impl AppleFusion<'_> {
             covariance += j * common * j.transpose();
         }
         let mut all = current.clone();
-        all.extend(earlier.map(|b| &self.tracks[b]).into_iter().flatten());
+        all.extend(link.map(|l| &self.tracks[l.other]).into_iter().flatten());
         all.sort_unstable();
-        let (radius, radius_sd) = self.radius(&all);
+        let moved = link.filter(|l| l.moved);
+        let (radius, radius_sd) = self.radius(if moved.is_some() { &all } else { current });
 
         let with: Vec<(usize, DirectionSighting)> = current
             .iter()
@@ -104,7 +128,12 @@ impl AppleFusion<'_> {
         let directions: Vec<DirectionSighting> = with.iter().map(|(_, d)| *d).collect();
         let gate = bound_2(self.config.direction_rate);
         let combined = combine(&directions, gate, self.config.repeated_error);
-        let (status, reason) = self.judge(&all, current.len(), directions.len(), combined.as_ref());
+        let (status, reason) = self.judge(
+            &all,
+            (current.len(), link),
+            directions.len(),
+            combined.as_ref(),
+        );
         let used: Vec<(usize, bool)> = combined
             .iter()
             .flat_map(|c| &c.used)
@@ -132,7 +161,7 @@ impl AppleFusion<'_> {
             reason,
             foot: foot.map(Into::into),
             quaternion_xyzw: tool.map(|t| t.quaternion_xyzw()),
-            moved: earlier.map(|b| self.moved(a, b)),
+            moved: moved.map(|l| self.moved(a, l.other)),
             view_from: if picked.is_some() {
                 Vec::new()
             } else {
@@ -142,17 +171,26 @@ impl AppleFusion<'_> {
             sightings: all
                 .iter()
                 .map(|&i| {
-                    self.sighting(
+                    let elsewhere = link.filter(|_| !current.contains(&i));
+                    let mut sighting = self.sighting(
                         i,
-                        if current.contains(&i) {
-                            a
-                        } else {
-                            earlier.unwrap_or(a)
-                        },
+                        elsewhere.map_or(a, |l| l.other),
                         a,
                         &used,
                         combined.as_ref(),
-                    )
+                    );
+                    if let Some(link) = elsewhere {
+                        sighting.place = if link.moved {
+                            PlaceUse::Elsewhere
+                        } else {
+                            PlaceUse::Misfit
+                        };
+                        if !link.moved {
+                            sighting.residual =
+                                (self.joint.corrected(&self.sightings[i]) - place.center).norm();
+                        }
+                    }
+                    sighting
                 })
                 .collect(),
         }
@@ -183,6 +221,7 @@ impl AppleFusion<'_> {
             pick: s.pick,
             status: s.status,
             residual: (self.joint.corrected(s) - self.joint.places[track].center).norm(),
+            place: PlaceUse::Used,
             direction,
             direction_off: off,
         }
@@ -225,15 +264,15 @@ impl AppleFusion<'_> {
     fn judge(
         &self,
         all: &[usize],
-        current: usize,
+        (current, link): (usize, Option<Link>),
         directions: usize,
         combined: Option<&Combined>,
     ) -> (FusedStatus, String) {
         let seen = format!("seen in {}", frames(all.len()));
-        let seen = if current < all.len() {
-            format!("{seen}, moved, {current} of them after that")
-        } else {
-            seen
+        let seen = match link {
+            Some(link) if link.moved => format!("{seen}, moved, {current} of them after that"),
+            Some(_) => format!("{seen}, {} of them a misfit", all.len() - current),
+            None => seen,
         };
         let Some(combined) = combined else {
             let mut names: Vec<&str> = all

@@ -131,6 +131,19 @@ pub struct MovedRecord {
     pub frames: Vec<usize>,
 }
 
+/// What became of the place where one frame shows an apple.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum PlaceUse {
+    /// It is one of those that agree.
+    Used,
+    /// The apple has moved: it stood there in that frame.
+    Elsewhere,
+    /// It contradicts a place that is better seen, and counts for nothing.
+    Misfit,
+}
+
 /// What became of one frame's direction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -142,7 +155,7 @@ pub enum DirectionUse {
     Used,
     /// It contradicts them.
     Outlier,
-    /// It is of the place where the apple is no more.
+    /// It is of a place that is not the apple's any more, or never was.
     Stale,
 }
 
@@ -155,7 +168,9 @@ pub struct SightingRecord {
     pub pick: usize,
     /// The pick's status.
     pub status: crate::Status,
-    /// Distance of that centre, the common shift taken off, from the fused one.
+    /// What became of that place.
+    pub place: PlaceUse,
+    /// Distance of that centre, the common shift taken off, from the fused one; of a moved apple from that of its place then.
     pub residual: f64,
     /// What became of its direction.
     pub direction: DirectionUse,

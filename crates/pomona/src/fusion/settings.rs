@@ -29,6 +29,9 @@ pub struct FusionConfig {
     /// Two places of one apple overlap: their distance is at most this share of the sum of the radii. Default 0.95.
     /// What lies farther apart are two apples.
     pub moved_reach: f64,
+    /// Least visible share of an apple at both places for it to have moved. Default 0.3. What is seen worse is a misfit:
+    /// spheres of hidden apples are at times wrong by centimetres.
+    pub moved_visible: f64,
     /// Confidence of a direction where a frame states none (method `paper`), 0 to 1. Default 0.7.
     pub confidence: f64,
     /// Share of wrong directions that another frame repeats. Default 0.3. Larger: agreement counts for less.
@@ -52,6 +55,7 @@ impl Default for FusionConfig {
             sway_sd_m: 0.01,
             sway_sd_rad: 0.005,
             moved_reach: 0.95,
+            moved_visible: 0.3,
             confidence: 0.7,
             repeated_error: 0.3,
             least_confidence: 0.35,
@@ -106,6 +110,8 @@ impl FusionConfig {
         ] {
             require(value > 0.0 && value < 1.0, name, value, SHARE)?;
         }
+        let visible = (0.0..=1.0).contains(&c.moved_visible);
+        require(visible, "fusion.moved_visible", c.moved_visible, "0 to 1")?;
         let least = c.least_confidence >= 0.0 && c.least_confidence <= 1.0;
         require(
             least,

@@ -16,6 +16,8 @@ pub(crate) struct Sighting {
     /// Its own covariance, without the pose's.
     pub(crate) covariance: Matrix3<f64>,
     pub(crate) radius: f64,
+    /// Share of its outline on which its surface shows; 1 where the method does not say.
+    pub(crate) visible_share: f64,
     pub(crate) radius_variance: f64,
     pub(crate) direction: Option<DirectionSighting>,
     /// Distance of the foot from the centre.
@@ -81,6 +83,7 @@ impl Sighting {
             center,
             covariance,
             radius: apple.radius,
+            visible_share: apple.visible_share.unwrap_or(1.0),
             radius_variance: sd.powi(2) + config.radius_floor_m.max(1e-5).powi(2),
             direction,
             foot_distance: foot.map(|f| (Vector3::from(f) - Vector3::from(apple.center)).norm()),

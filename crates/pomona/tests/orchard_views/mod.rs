@@ -6,20 +6,25 @@ use pomona_scenes::{Make, Orchard, Shot};
 use pomona_transforms::Transform;
 
 /// The tree from several cameras, and where its apples truly are in the robot's frame.
-pub struct Views {
-    pub frames: Vec<(Record, RobotFromCamera)>,
-    pub centers: Vec<Vector3<f64>>,
+pub(crate) struct Views {
+    pub(crate) frames: Vec<(Record, RobotFromCamera)>,
+    pub(crate) centers: Vec<Vector3<f64>>,
     /// The true direction of each apple that a frame boxes.
     #[allow(
         dead_code,
         reason = "not every program that shares this file asks for it"
     )]
-    pub directions: Vec<Option<Vector3<f64>>>,
+    pub(crate) directions: Vec<Option<Vector3<f64>>>,
 }
 
 /// A camera at `distance` from `target`, turned about it by `angle` from the robot's side and raised by `up`,
 /// radians; x of the robot points to the tree, z up.
-pub fn pose_towards(target: Vector3<f64>, distance: f64, angle: f64, up: f64) -> Isometry3<f64> {
+pub(crate) fn pose_towards(
+    target: Vector3<f64>,
+    distance: f64,
+    angle: f64,
+    up: f64,
+) -> Isometry3<f64> {
     let forward = Vector3::new(angle.cos() * up.cos(), angle.sin() * up.cos(), -up.sin());
     let right = forward.cross(&Vector3::z()).normalize();
     let down = forward.cross(&right);
@@ -32,7 +37,7 @@ pub fn pose_towards(target: Vector3<f64>, distance: f64, angle: f64, up: f64) ->
 }
 
 /// The orchard of `seed` from three sides, 0.35 rad apart, picked by `robust`.
-pub fn views(seed: u64) -> Views {
+pub(crate) fn views(seed: u64) -> Views {
     let camera = Shot::paper_camera();
     let world = Orchard::default().world(&camera, seed);
     let first = pose_towards(Vector3::new(1.0, 0.0, 0.5), 1.0, 0.0, 0.0);

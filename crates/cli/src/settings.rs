@@ -30,7 +30,7 @@ pub(crate) const SETTINGS: &[Setting] = &[
     setting(
         "method",
         "name",
-        "The method. paper: Gao et al. 2022, doi 10.3390/agriculture12081170.",
+        "The method. robust: ours. paper: Gao et al. 2022, doi 10.3390/agriculture12081170.",
     ),
     setting(
         "paper.sphere_iterations",
@@ -94,6 +94,136 @@ pub(crate) const SETTINGS: &[Setting] = &[
         "paper.line_min_points",
         "count",
         "Fewest points that make a branch. Fewer: thin branches are found, and chance rows of points.",
+    ),
+    setting(
+        "robust.sensor",
+        "name",
+        "The depth camera: generic, paper, kinect, azure-kinect or d400. Decides from which difference on two readings disagree.",
+    ),
+    setting(
+        "robust.noise_m",
+        "metres",
+        "Standard deviation of a depth reading at depth z as a + b z + c z²: [a, b, c], metres. Empty: that of sensor.",
+    ),
+    setting(
+        "robust.radius_min_m",
+        "metres",
+        "Smallest radius of an apple.",
+    ),
+    setting(
+        "robust.radius_max_m",
+        "metres",
+        "Largest radius of an apple.",
+    ),
+    setting(
+        "robust.radius_mean_m",
+        "metres",
+        "Radius that apples are believed to have. Counts where little of one shows.",
+    ),
+    setting(
+        "robust.radius_sd_m",
+        "metres",
+        "Standard deviation of that belief. Smaller: hidden apples are steadier, odd sizes worse.",
+    ),
+    setting(
+        "robust.box_radius_sd_m",
+        "metres",
+        "Standard deviation, metres, of a radius read off the smaller side of a box; 0 (default): boxes do not say how large apples are. For drawn boxes and smeared depth 0.001, for boxes of what shows of hidden apples 0.",
+    ),
+    setting(
+        "robust.rim_share",
+        "share",
+        "Share of a box's width and height on each side whose readings are left out. For time-of-flight cameras, which smear an apple's rim backwards, 0.15.",
+    ),
+    setting(
+        "robust.flattening_mean",
+        "share",
+        "Share by which apples are believed to be lower than wide.",
+    ),
+    setting(
+        "robust.flattening_sd",
+        "share",
+        "Standard deviation of that belief.",
+    ),
+    setting(
+        "robust.stem_sd_rad",
+        "radians",
+        "Standard deviation of the stem's angle to the image's upward direction.",
+    ),
+    setting(
+        "robust.min_readings",
+        "count",
+        "Fewest readings in a box that make an apple.",
+    ),
+    setting(
+        "robust.sphere_draws",
+        "count",
+        "Spheres tried through four random points. More: steadier among leaves, and slower.",
+    ),
+    setting(
+        "robust.sphere_kept",
+        "count",
+        "Spheres of these that are refined.",
+    ),
+    setting(
+        "robust.blocks",
+        "count",
+        "Blocks along the longer side of a box, over which readings are averaged. More: finer and slower.",
+    ),
+    setting(
+        "robust.box_weight",
+        "weight",
+        "Weight of the box against the points when spheres compete. 0 for boxes that mean little.",
+    ),
+    setting(
+        "robust.contour_sd_px",
+        "pixels",
+        "Standard deviation of the place of the apple's outline.",
+    ),
+    setting(
+        "robust.shape_sd_m",
+        "metres",
+        "Standard deviation of an apple's surface about a flattened sphere.",
+    ),
+    setting(
+        "robust.branch_radius_min_m",
+        "metres",
+        "Smallest radius of a branch. Smaller: stalks count as branches.",
+    ),
+    setting(
+        "robust.branch_radius_max_m",
+        "metres",
+        "Largest radius of a branch.",
+    ),
+    setting(
+        "robust.branch_near",
+        "radii",
+        "Least distance of a branch's axis from the apple's centre.",
+    ),
+    setting(
+        "robust.branch_far",
+        "radii",
+        "Largest distance of a branch's axis from the apple's centre.",
+    ),
+    setting(
+        "robust.branch_reach",
+        "radii",
+        "Length to either side of its foot along which a branch is looked at.",
+    ),
+    setting(
+        "robust.branch_bend_sd_per_m",
+        "per metre",
+        "Standard deviation of a branch's bend: way aside over distance squared.",
+    ),
+    setting(
+        "robust.branch_guesses",
+        "count",
+        "Lines that are looked at. More: branches that hardly show are found more often, and slower.",
+    ),
+    setting(
+        "robust.least_confidence",
+        "probability",
+        "Answers with a smaller confidence are refused. Higher: fewer and better answers.",
     ),
 ];
 

@@ -22,8 +22,11 @@ const LANES: usize = 16;
 /// How many points are selected at a time.
 const CHUNK: usize = 64;
 
-/// How many of them are passed over at once if none is selected.
+/// How many of them are listed without asking whether there are as many.
 const GROUP: usize = 8;
+
+/// Multiplied by eight bytes that are 0 or 1, it gathers them in the highest byte, a bit for each.
+const BITS: u64 = 0x0102_0408_1020_4080;
 
 /// A shape made ready to be compared with points at one threshold.
 pub(crate) trait Kernel<T>: Copy {
@@ -140,30 +143,65 @@ impl<T: Coordinate, K: Kernel<T>> WithSimd for Select<'_, T, K> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let (x, y, z) = even(self.block);
-        let chunks = x.chunks(CHUNK).zip(y.chunks(CHUNK)).zip(z.chunks(CHUNK));
-        let mut found = [0; CHUNK];
-        for (k, ((x, y), z)) in chunks.enumerate() {
-            let mut held = [0_u8; CHUNK];
-            for i in 0..x.len() {
-                held[i] = u8::from(self.kernel.holds(x[i], y[i], z[i]));
-            }
-            // Written whether it holds or not, and kept only if it does: no branch to mispredict.
-            let mut length = 0;
-            for (g, group) in held.as_chunks::<GROUP>().0.iter().enumerate() {
-                // Few points of a scene are inliers: most groups are passed over whole.
-                if u64::from_ne_bytes(*group) == 0 {
-                    continue;
-                }
-                let start = self.first + k * CHUNK + g * GROUP;
-                for (i, holds) in group.iter().enumerate() {
-                    found[length % CHUNK] = start + i;
-                    length += usize::from(*holds);
-                }
-            }
-            self.out.extend_from_slice(&found[..length]);
+        let Self {
+            block,
+            first,
+            kernel,
+            out,
+        } = self;
+        let (x, y, z) = even(block);
+        let (xs, x_rest) = x.as_chunks::<CHUNK>();
+        let (ys, y_rest) = y.as_chunks::<CHUNK>();
+        let (zs, z_rest) = z.as_chunks::<CHUNK>();
+        for (k, ((x, y), z)) in xs.iter().zip(ys).zip(zs).enumerate() {
+            list(x, y, z, kernel, first + k * CHUNK, out);
+        }
+        if !x_rest.is_empty() {
+            // What is no number is never held.
+            let [x, y, z] = [x_rest, y_rest, z_rest].map(|rest| {
+                let mut chunk = [T::from_f64(f64::NAN); CHUNK];
+                chunk[..rest.len()].copy_from_slice(rest);
+                chunk
+            });
+            list(&x, &y, &z, kernel, first + xs.len() * CHUNK, out);
         }
     }
+}
+
+/// Appends the points of a chunk that the kernel holds; its length is known, so that no point is left over
+/// for a slow loop.
+#[inline(always)]
+fn list<T: Coordinate>(
+    x: &[T; CHUNK],
+    y: &[T; CHUNK],
+    z: &[T; CHUNK],
+    kernel: impl Kernel<T>,
+    start: usize,
+    out: &mut Vec<usize>,
+) {
+    let mut held = [0_u8; CHUNK];
+    for i in 0..CHUNK {
+        held[i] = u8::from(kernel.holds(x[i], y[i], z[i]));
+    }
+    let mut mask = 0;
+    for (g, group) in held.as_chunks::<GROUP>().0.iter().enumerate() {
+        mask |= (u64::from_le_bytes(*group).wrapping_mul(BITS) >> 56) << (g * GROUP);
+    }
+    let count = mask.count_ones() as usize;
+    let mut found = [0; CHUNK];
+    // So many at a time, whether there are as many or not: few branches to mispredict.
+    for slots in found
+        .as_chunks_mut::<GROUP>()
+        .0
+        .iter_mut()
+        .take(count.div_ceil(GROUP))
+    {
+        for slot in slots {
+            *slot = start + mask.trailing_zeros() as usize;
+            mask &= mask.wrapping_sub(1);
+        }
+    }
+    out.extend_from_slice(&found[..count]);
 }
 
 #[cfg(test)]

@@ -322,10 +322,10 @@ pub(crate) struct SettingsArguments {
     /// Largest radius of an apple, mm.
     #[arg(long, value_name = "MM", allow_negative_numbers = true)]
     radius_max_mm: Option<f64>,
-    /// Spheres tried for each apple.
+    /// Spheres that the method `paper` tries for each apple.
     #[arg(long, value_name = "N")]
     sphere_iterations: Option<u64>,
-    /// Lines tried for each apple.
+    /// Lines that the method `paper` tries for each apple.
     #[arg(long, value_name = "N")]
     line_iterations: Option<u64>,
 }
@@ -356,6 +356,8 @@ impl SettingsArguments {
         for (flag, name, mm) in [
             ("--radius-min-mm", "paper.radius_min_m", self.radius_min_mm),
             ("--radius-max-mm", "paper.radius_max_m", self.radius_max_mm),
+            ("--radius-min-mm", "robust.radius_min_m", self.radius_min_mm),
+            ("--radius-max-mm", "robust.radius_max_m", self.radius_max_mm),
         ] {
             if let Some(mm) = mm {
                 config = with(&config, flag, name, Value::Float(mm / 1000.0))?;
@@ -466,7 +468,8 @@ mod tests {
             method: Some("paper".into()),
             config: None,
         };
-        let paper = arguments.config().unwrap().paper;
+        let Config { paper, robust, .. } = arguments.config().unwrap();
+        assert_eq!((robust.radius_min_m, robust.radius_max_m), (0.025, 0.06));
         assert_eq!((paper.radius_min_m, paper.radius_max_m), (0.025, 0.06));
         assert_eq!((paper.sphere_iterations, paper.line_iterations), (7, 8));
         assert_eq!(paper.shell_outer, 2.0);

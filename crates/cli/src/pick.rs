@@ -229,15 +229,12 @@ struct Run<'a> {
 impl Run<'_> {
     /// The pose of each frame's camera, where one is given.
     fn poses(&self, jobs: &[Job]) -> anyhow::Result<Vec<Option<RobotFromCamera>>> {
-        jobs.iter()
-            .map(|job| {
-                if self.arguments.fuse {
-                    fuse::pose(&job.frame, self.transform.as_ref()).map(Some)
-                } else {
-                    Ok(self.transform.clone())
-                }
-            })
-            .collect()
+        if !self.arguments.fuse {
+            return Ok(vec![self.transform.clone(); jobs.len()]);
+        }
+        let folders: Vec<&Path> = jobs.iter().map(|job| job.frame.as_path()).collect();
+        let poses = fuse::poses(&folders, self.transform.as_ref())?;
+        Ok(poses.into_iter().map(Some).collect())
     }
 
     /// Answers one frame and writes its files, all or none.

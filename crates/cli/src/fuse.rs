@@ -189,7 +189,7 @@ fn table(record: &FusedRecord, terminal: Terminal) -> String {
     }
     for (k, frame) in record.frames.iter().enumerate().skip(1) {
         let name = one_line(&frame.id);
-        text += &match &frame.shift {
+        let line = match &frame.shift {
             Some(shift) => format!(
                 "{name}: {} shared, {:.1} ± {:.1} mm off the first frame{}\n",
                 plural(frame.shared, "apple"),
@@ -203,6 +203,7 @@ fn table(record: &FusedRecord, terminal: Terminal) -> String {
             ),
             None => format!("{name}: frame {k} shares no apple with another\n"),
         };
+        text.push_str(&line);
     }
     text
 }

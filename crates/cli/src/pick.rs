@@ -38,6 +38,10 @@ processed. 2: bad input; frames that failed have written nothing.";
 
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
+#[allow(
+    clippy::struct_excessive_bools,
+    reason = "each is a flag of the command line"
+)]
 pub(crate) struct PickArguments {
     /// Folders of frames.
     #[arg(required = true, value_name = "FRAME")]

@@ -78,11 +78,29 @@ fn is_fused(path: &Path) -> bool {
     head.is_some_and(|head| head.schema.starts_with("pomona.fused/"))
 }
 
-/// The pose of a frame's camera: that in its folder, else the one for all.
-pub(crate) fn pose(
-    folder: &Path,
+/// The poses of the frames' cameras, all in one frame of the robot.
+pub(crate) fn poses(
+    folders: &[&Path],
     of_all: Option<&RobotFromCamera>,
-) -> anyhow::Result<RobotFromCamera> {
+) -> anyhow::Result<Vec<RobotFromCamera>> {
+    let poses: Vec<RobotFromCamera> = folders
+        .iter()
+        .map(|folder| pose(folder, of_all))
+        .collect::<Result<_, _>>()?;
+    if let Some(k) = poses.iter().position(|p| p.to != poses[0].to) {
+        bail!(
+            "the pose of {} leads to '{}', that of {} to '{}': give all poses in one frame of the robot",
+            folders[0].display(),
+            poses[0].to,
+            folders[k].display(),
+            poses[k].to
+        );
+    }
+    Ok(poses)
+}
+
+/// The pose of a frame's camera: that in its folder, else the one for all.
+fn pose(folder: &Path, of_all: Option<&RobotFromCamera>) -> anyhow::Result<RobotFromCamera> {
     let own = folder.join(POSE);
     if own.exists() {
         return Ok(RobotFromCamera::read(own)?);
@@ -171,7 +189,7 @@ fn table(record: &FusedRecord, terminal: Terminal) -> String {
     }
     for (k, frame) in record.frames.iter().enumerate().skip(1) {
         let name = one_line(&frame.id);
-        text += &match &frame.shift {
+        let line = match &frame.shift {
             Some(shift) => format!(
                 "{name}: {} shared, {:.1} ± {:.1} mm off the first frame{}\n",
                 plural(frame.shared, "apple"),
@@ -185,6 +203,7 @@ fn table(record: &FusedRecord, terminal: Terminal) -> String {
             ),
             None => format!("{name}: frame {k} shares no apple with another\n"),
         };
+        text.push_str(&line);
     }
     text
 }

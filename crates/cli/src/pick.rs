@@ -42,6 +42,10 @@ processed. 2: bad input; frames that failed have written nothing.";
 
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
+#[allow(
+    clippy::struct_excessive_bools,
+    reason = "each is a flag of the command line"
+)]
 pub(crate) struct PickArguments {
     /// Folders of frames.
     #[arg(required = true, value_name = "FRAME")]
@@ -250,15 +254,12 @@ struct Run<'a> {
 impl Run<'_> {
     /// The pose of each frame's camera, where one is given.
     fn poses(&self, jobs: &[Job]) -> anyhow::Result<Vec<Option<RobotFromCamera>>> {
-        jobs.iter()
-            .map(|job| {
-                if self.arguments.fuse {
-                    fuse::pose(&job.frame, self.transform.as_ref()).map(Some)
-                } else {
-                    Ok(self.transform.clone())
-                }
-            })
-            .collect()
+        if !self.arguments.fuse {
+            return Ok(vec![self.transform.clone(); jobs.len()]);
+        }
+        let folders: Vec<&Path> = jobs.iter().map(|job| job.frame.as_path()).collect();
+        let poses = fuse::poses(&folders, self.transform.as_ref())?;
+        Ok(poses.into_iter().map(Some).collect())
     }
 
     /// Answers one frame and writes its files, all or none.

@@ -316,7 +316,7 @@ fn what_contradicts_itself_is_refused_by_name() {
         fuse(&posed, &FusionConfig::default()).unwrap_err()
     };
     assert!(matches!(
-        run(&[a.clone()]),
+        run(std::slice::from_ref(&a)),
         FusionError::TooFew { count: 1 }
     ));
     let mut renamed = a.clone();

@@ -99,7 +99,12 @@ fn what_cannot_be_fused_is_refused_and_writes_nothing() {
     );
     fuse(&[&left, &right]).refused(&["'base'", "'other'"]);
     assert!(!bench.path("out/fused.json").exists());
-    pomona(&["pick", &left, "--fused-cloud", "--out", &out]).refused(&["--fuse"]);
+    let alone = pomona(&["pick", &left, "--fused-cloud", "--out", &out]);
+    assert!(
+        alone.code == 2 && alone.err.contains("--fuse"),
+        "{}",
+        alone.err
+    );
     std::fs::create_dir_all(bench.path("out")).unwrap();
     bench.write("out/fused.json", "{}");
     fuse(&[&left, &right]).refused(&["not a result of this program"]);

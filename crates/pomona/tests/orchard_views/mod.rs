@@ -1,5 +1,10 @@
 //! Rendered pieces of an orchard, seen from several sides.
 
+#![allow(
+    clippy::unwrap_used,
+    reason = "a test that cannot go on should fail where it stands"
+)]
+
 use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
 use pomona::{Config, Method, Picker, Record, RobotFromCamera};
 use pomona_scenes::{Make, Orchard, Shot};

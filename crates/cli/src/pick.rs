@@ -282,14 +282,14 @@ impl Run<'_> {
             log::info!("{}: planned in {:.1?}", frame.id, start.elapsed());
         }
         let start = Instant::now();
-        self.write(job, &frame, &outcome, plan.as_ref())?;
+        self.write(job, &frame, &outcome, plan.as_ref().zip(pose))?;
         log::info!("{}: written in {:.0?}", frame.id, start.elapsed());
         Ok(outcome.record)
     }
 
-    fn robot_view(&self) -> Option<RobotView<'_>> {
+    fn robot_view<'v>(&'v self, robot_from_camera: &'v RobotFromCamera) -> Option<RobotView<'v>> {
         Some(RobotView {
-            robot_from_camera: self.transform.as_ref()?,
+            robot_from_camera,
             gripper: &self.robot.as_ref()?.config().gripper,
         })
     }
@@ -299,13 +299,14 @@ impl Run<'_> {
         job: &Job,
         frame: &Frame,
         outcome: &Outcome,
-        plan: Option<&RobotPlan>,
+        plan: Option<(&RobotPlan, &RobotFromCamera)>,
     ) -> anyhow::Result<()> {
         let chosen = self.arguments.clouds.of(outcome)?;
         let picture = if self.arguments.no_picture {
             None
         } else {
-            Some(picture::draw(frame, outcome, self.robot_view().as_ref())?)
+            let view = plan.and_then(|(_, pose)| self.robot_view(pose));
+            Some(picture::draw(frame, outcome, view.as_ref())?)
         };
         let clouds = if chosen.is_empty() {
             None
@@ -319,14 +320,14 @@ impl Run<'_> {
             PICKS,
             &(serde_json::to_string_pretty(&outcome.record)? + "\n"),
         )?;
-        if let (Some(robot), Some(plan), true) = (&self.robot, plan, self.arguments.ros) {
+        if let (Some(robot), Some((plan, _)), true) = (&self.robot, plan, self.arguments.ros) {
             for file in ros::files(plan, robot.config()) {
                 write_text(&output, &file.name, &file.text)?;
             }
         }
         #[cfg(feature = "mcap")]
-        if let (Some(robot), Some(transform), Some(plan), true) =
-            (&self.robot, &self.transform, plan, self.arguments.mcap)
+        if let (Some(robot), Some((plan, transform)), true) =
+            (&self.robot, plan, self.arguments.mcap)
         {
             let bytes = pomona::recording::record(frame, outcome, plan, robot, transform)?;
             std::fs::write(output.file(RECORDING), bytes)?;

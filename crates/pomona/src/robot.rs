@@ -89,7 +89,8 @@ impl Robot {
         let (mut branches, mut branch_ids) = (Vec::new(), Vec::new());
         let (mut targets, mut target_ids) = (Vec::new(), Vec::new());
         for (pick, evidence) in picks.iter().zip(&outcome.evidence) {
-            let radius = config.clearance.branch_radius_m;
+            let fitted = pick.candidates.first().map(|best| best.radius);
+            let radius = fitted.unwrap_or(config.clearance.branch_radius_m);
             if let Some(branch) = branch_of(pick, &evidence.branch, &points, radius) {
                 branches.push(moved(&branch, &to_robot));
                 branch_ids.push(pick.id);
@@ -105,7 +106,13 @@ impl Robot {
             apple_ids.push(pick.id);
             if let Some(direction) = direction_of(pick, robot_from_camera) {
                 let mut target = Target::new(number, direction);
-                target.direction_uncertainty_rad = config.search.direction_uncertainty_rad;
+                target
+                    .directions
+                    .extend(others(pick, &apple, robot_from_camera));
+                target.direction_uncertainty_rad = pick
+                    .direction_sd
+                    .unwrap_or(config.search.direction_uncertainty_rad);
+                target.confidence = pick.confidence.unwrap_or(1.0);
                 target.branch = pick
                     .branch
                     .as_ref()
@@ -191,6 +198,28 @@ fn sphere_of(pick: &Pick) -> Option<Sphere> {
 fn direction_of(pick: &Pick, transform: &RobotFromCamera) -> Option<Direction<RobotFrame>> {
     let direction = Direction::<CameraFrame>::new(Vector3::from(pick.direction?))?;
     Some(transform.transform.direction(&direction))
+}
+
+/// The directions to the other candidates that are nearly as good as the best, and elsewhere.
+fn others(
+    pick: &Pick,
+    apple: &Sphere,
+    transform: &RobotFromCamera,
+) -> impl Iterator<Item = Direction<RobotFrame>> {
+    /// By how much less than the best a candidate may score, and how far its direction is from that of the best.
+    const WORSE: f64 = 0.3;
+    const APART_RAD: f64 = 0.2;
+    let towards = |foot: [f64; 3]| Point3::from(foot) - apple.center;
+    let best = pick.candidates.first();
+    let close = pick.candidates.iter().skip(1).filter(move |other| {
+        best.is_some_and(|best| {
+            other.score >= best.score - WORSE
+                && towards(other.foot).angle(&towards(best.foot)) > APART_RAD
+        })
+    });
+    close
+        .filter_map(move |other| Direction::<CameraFrame>::new(towards(other.foot)))
+        .map(|direction| transform.transform.direction(&direction))
 }
 
 /// The branch as far as its supporting pixels see it, in the camera's frame.

@@ -12,8 +12,9 @@ fn printed_settings_change_nothing() {
         printed
     );
     for part in [
-        "method = \"paper\"",
+        "method = \"robust\"",
         "[paper]",
+        "[robust]",
         "radius_max_m = 0.05",
         "Unit: metres",
     ] {

@@ -188,7 +188,7 @@ mod tests {
                 moments.points,
                 points.iter().filter(|(_, w)| *w > 0.0).count()
             );
-            assert!((moments.centroid - centroid).amax() < 1e-14 * unit);
+            assert!((moments.centroid - centroid).amax() < 1e-12 * unit);
             let own = moments.unit / unit;
             assert!((moments.scatter * own * own - scatter).amax() < 1e-12 * scatter.amax());
         }

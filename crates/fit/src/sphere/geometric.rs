@@ -65,12 +65,12 @@ fn newton(
     start: &Sphere,
     prior: Option<RadiusPrior>,
 ) -> Option<Sphere> {
+    const MAX_STEPS: usize = 100;
+    const CONVERGED: f64 = 1e-7;
     let points = Gathered::new(points);
     if points.points + usize::from(prior.is_some()) < 4 {
         return None;
     }
-    const MAX_STEPS: usize = 100;
-    const CONVERGED: f64 = 1e-7;
     let equations = |sphere: &Sphere| {
         let mut equations = NormalEquations::new(&points, sphere);
         if let Some(prior) = prior {

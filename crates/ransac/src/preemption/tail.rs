@@ -33,7 +33,7 @@ pub(super) fn log_tail(seen: f64, found: f64, marked: f64, data: f64) -> f64 {
     }
     let part = found * (others - missed) / ((marked - found + 1.0) * (missed + 1.0));
     // Written so that NaN gives 1 as well.
-    if !(0.0 <= part && part < 1.0 && found <= marked) {
+    if !((0.0..1.0).contains(&part) && found <= marked) {
         return 0.0;
     }
     let last = log_choose(marked, found) + log_choose(others, missed) - log_choose(data, seen);

@@ -80,6 +80,11 @@ pub(super) fn evaluation(evaluation: &Evaluation, terminal: Terminal) -> String 
         let title = format!("Tables 1-3 of the paper and {}, {}", of.suite, of.method);
         text += &("\n".to_owned() + &table(&title, &header, &rows, 1, terminal));
     }
+    text + &pairs(evaluation, terminal)
+}
+
+/// The methods in pairs, apple by apple; nothing where there is one method.
+fn pairs(evaluation: &Evaluation, terminal: Terminal) -> String {
     let rows: Vec<Vec<String>> = evaluation
         .comparisons
         .iter()
@@ -106,9 +111,9 @@ pub(super) fn evaluation(evaluation: &Evaluation, terminal: Terminal) -> String 
             "only first",
             "only second",
         ];
-        text += &("\n".to_owned() + &table("Methods in pairs", &header, &rows, 2, terminal));
+        return "\n".to_owned() + &table("Methods in pairs", &header, &rows, 2, terminal);
     }
-    text
+    String::new()
 }
 
 /// Radii against calipers as tables of text.

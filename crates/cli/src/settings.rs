@@ -108,12 +108,12 @@ pub(crate) const SETTINGS: &[Setting] = &[
     setting(
         "robust.radius_min_m",
         "metres",
-        "Smallest radius of an apple.",
+        "Smallest radius of a sphere that is tried; a fit more than a tenth below it is refused.",
     ),
     setting(
         "robust.radius_max_m",
         "metres",
-        "Largest radius of an apple.",
+        "Largest radius of a sphere that is tried; a fit more than a tenth above it is refused.",
     ),
     setting(
         "robust.radius_mean_m",

@@ -19,6 +19,10 @@ impl Capsule {
     /// The piece of `cylinder` between two parameters of its axis, in either order, with round ends
     /// beyond them; `None` where one is not finite.
     pub fn cut(cylinder: &Cylinder, from: f64, to: f64) -> Option<Self> {
+        // The smaller of a number and NaN would be the number.
+        if from.is_nan() || to.is_nan() {
+            return None;
+        }
         let segment = Segment::new(
             cylinder.axis.at(from.min(to)),
             cylinder.axis.at(from.max(to)),

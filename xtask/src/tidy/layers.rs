@@ -244,7 +244,7 @@ mod tests {
     fn the_engine_brings_little_along() {
         let engine = package("pomona-ransac", &[("rayon", None)]);
         assert_eq!(faults(vec![engine]), ["`pomona-ransac` depends on `rayon`"]);
-        let mut engine = package("pomona-ransac", &[("rayon", None), ("thiserror", None)]);
+        let mut engine = package("pomona-ransac", &[("rayon", None), ("rand_core", None)]);
         engine.dependencies[0].optional = true;
         assert!(faults(vec![engine]).is_empty());
         let engine = package("pomona-ransac", &[("pomona-geometry", Some("dev"))]);

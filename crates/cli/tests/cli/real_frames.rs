@@ -31,7 +31,8 @@ fn every_box_of_the_orchard_frames_has_an_answer() {
         let picked = picks.iter().filter(|p| p["status"] == "picked");
         for pick in picked.clone() {
             let radius = pick["apple"]["radius"].as_f64().unwrap();
-            assert!((0.02..=0.055).contains(&radius), "{pick}");
+            // Within a tenth of the bounds on the spheres tried.
+            assert!((0.018..=0.0605).contains(&radius), "{pick}");
         }
         assert!(picked.count() >= 5, "{}", run.out);
     }

@@ -13,9 +13,9 @@ pub struct RobustConfig {
     pub sensor: SensorPreset,
     /// Standard deviation of a depth reading at depth z as a + b z + c z²: [a, b, c], metres. Empty: that of `sensor`.
     pub noise_m: Vec<f64>,
-    /// Smallest radius of an apple, metres. Default 0.020.
+    /// Smallest radius of a sphere that is tried, metres; a fit more than a tenth below it is refused. Default 0.020.
     pub radius_min_m: f64,
-    /// Largest radius of an apple, metres. Default 0.055.
+    /// Largest radius of a sphere that is tried, metres; a fit more than a tenth above it is refused. Default 0.055.
     pub radius_max_m: f64,
     /// Radius that apples are believed to have, metres. Default 0.038. Counts where little of one shows.
     pub radius_mean_m: f64,

@@ -89,9 +89,12 @@ impl<I: Iterator<Item = (Point3<f64>, f64)> + Clone> Objective<I> {
         for _ in 0..MAX_STEPS {
             let chart = C::at(&shape);
             let (normal, descent) = self.normal_equations(&chart, &shape);
+            let curved = condition.and_then(|c| curved::<C, N, R>(&normal, &descent, &chart, c));
             let mut improved = None;
             while damping < MAX_DAMPING {
-                let tried = Damped::new(&normal, damping)
+                let tried = curved
+                    .and_then(|curved| Damped::new(&curved, damping))
+                    .or_else(|| Damped::new(&normal, damping))
                     .and_then(|d| d.step::<C, R>(&chart, &shape, &descent, condition));
                 if let Some((candidate, decrement)) = tried {
                     let value = self.value::<C, N, R>(&candidate);
@@ -116,6 +119,42 @@ impl<I: Iterator<Item = (Point3<f64>, f64)> + Clone> Objective<I> {
         }
         Some(shape)
     }
+}
+
+/// `JᵀJ` with the condition's second derivatives, times its multiplier, added: without them steps along a bent
+/// condition are too long, and the search creeps. `None` where that leaves a diagonal entry not positive.
+fn curved<C: Chart<N, R>, const N: usize, const R: usize>(
+    normal: &SMatrix<f64, N, N>,
+    descent: &SVector<f64, N>,
+    chart: &C,
+    condition: &Condition<'_, C::Shape>,
+) -> Option<SMatrix<f64, N, N>> {
+    let damped = Damped::new(normal, 1e-12)?;
+    let across = damped.gradient::<C, R>(chart, condition);
+    let way = damped.solve(&across);
+    let multiplier = across.dot(&damped.solve(descent)) / across.dot(&way);
+    let largest = damped.scale.amax();
+    let h = damped.scale.map(|scale| 1e-4 * scale / largest);
+    let at = |i: usize, j: usize, a: f64, b: f64| {
+        let mut step = SVector::<f64, N>::zeros();
+        step[i] += a * h[i];
+        step[j] += b * h[j];
+        chart.stepped(&step).map(|shape| condition(&shape))
+    };
+    let mut curved = *normal;
+    for i in 0..N {
+        for j in 0..=i {
+            let mixed = at(i, j, 1.0, 1.0)? - at(i, j, 1.0, -1.0)? - at(i, j, -1.0, 1.0)?
+                + at(i, j, -1.0, -1.0)?;
+            let second = multiplier * mixed / (4.0 * h[i] * h[j]);
+            curved[(i, j)] += second;
+            if i != j {
+                curved[(j, i)] += second;
+            }
+        }
+    }
+    let valid = curved.iter().all(|c| c.is_finite()) && (0..N).all(|i| curved[(i, i)] > 0.0);
+    valid.then_some(curved)
 }
 
 /// What has to be zero.

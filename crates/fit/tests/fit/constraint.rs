@@ -88,9 +88,9 @@ fn is_best<E: Estimator>(
         };
         if constraint.allows_model(estimator, &other) {
             tried += 1;
-            // The bound is kept to 1e-9 of the window's width, and the search ends a little before the least.
+            // The bound is kept to 1e-9 of the window's width.
             prop_assert!(
-                squares(&other) >= least * (1.0 - 1e-4),
+                squares(&other) >= least * (1.0 - 1e-6),
                 "{} under {least}",
                 squares(&other)
             );

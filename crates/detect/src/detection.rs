@@ -1,0 +1,105 @@
+use crate::DetectError;
+use pomona_cloud::{ColorImage, PixelBox};
+use serde::Serialize;
+
+/// A box in which a detector sees something.
+///
+/// Edges in pixels of the image, counted from its left and upper edge: the first pixel spans 0 to 1. A box may
+/// reach beyond the image.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Detection {
+    /// Left edge.
+    pub x_min: f64,
+    /// Upper edge.
+    pub y_min: f64,
+    /// Right edge.
+    pub x_max: f64,
+    /// Lower edge.
+    pub y_max: f64,
+    /// How sure the detector is, 0 to 1.
+    pub score: f64,
+    /// Number of the class in the model's own list.
+    pub class: usize,
+}
+
+impl Detection {
+    /// Area in square pixels; 0 for an inverted box.
+    pub fn area(&self) -> f64 {
+        (self.x_max - self.x_min).max(0.0) * (self.y_max - self.y_min).max(0.0)
+    }
+
+    /// Area common to two boxes over the area that both cover, 0 to 1; 0 where both are empty.
+    pub fn iou(&self, other: &Self) -> f64 {
+        let width = self.x_max.min(other.x_max) - self.x_min.max(other.x_min);
+        let height = self.y_max.min(other.y_max) - self.y_min.max(other.y_min);
+        let common = width.max(0.0) * height.max(0.0);
+        let union = self.area() + other.area() - common;
+        if union > 0.0 { common / union } else { 0.0 }
+    }
+
+    /// The box as box files hold it, under this name.
+    pub fn to_pixel_box(&self, name: impl Into<String>) -> PixelBox {
+        PixelBox {
+            name: name.into(),
+            x_min: self.x_min,
+            y_min: self.y_min,
+            x_max: self.x_max,
+            y_max: self.y_max,
+            score: self.score,
+        }
+    }
+}
+
+/// Finds things in a colour image.
+///
+/// One detector serves many threads. The same image gives the same detections, best first.
+pub trait Detector: Send + Sync {
+    /// What is seen in `image`, best first.
+    ///
+    /// # Errors
+    ///
+    /// [`DetectError`]; an image without apples is none.
+    fn detect(&self, image: &ColorImage) -> Result<Vec<Detection>, DetectError>;
+
+    /// What detects, for the record.
+    fn report(&self) -> DetectorReport;
+}
+
+/// What detected: it stands in the output, so that a result can be traced.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct DetectorReport {
+    /// Name of the detector or of the model's file.
+    pub name: String,
+    /// How its outputs were read, such as `yolox`; absent where it has no such choice.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub family: Option<String>,
+    /// What ran the network; absent where none of ours did.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub runtime: Option<RuntimeReport>,
+}
+
+/// What ran a network.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct RuntimeReport {
+    /// `onnxruntime` or `embedded`.
+    pub name: String,
+    /// Its version.
+    pub version: String,
+    /// The library that was loaded; absent for the embedded one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub library: Option<String>,
+    /// Why a runtime that was preferred did not serve; absent where none was.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fallback_reason: Option<String>,
+}
+
+/// Numbers that a network takes or gives.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tensor {
+    /// Its name in the model.
+    pub name: String,
+    /// Length of each axis, slowest first.
+    pub shape: Vec<usize>,
+    /// The values, row-major.
+    pub data: Vec<f32>,
+}

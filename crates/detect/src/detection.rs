@@ -92,14 +92,3 @@ pub struct RuntimeReport {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fallback_reason: Option<String>,
 }
-
-/// Numbers that a network takes or gives.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Tensor {
-    /// Its name in the model.
-    pub name: String,
-    /// Length of each axis, slowest first.
-    pub shape: Vec<usize>,
-    /// The values, row-major.
-    pub data: Vec<f32>,
-}

@@ -12,6 +12,10 @@
 
 mod detection;
 mod error;
+mod network;
+mod options;
 
-pub use detection::{Detection, Detector, DetectorReport, RuntimeReport, Tensor};
+pub use detection::{Detection, Detector, DetectorReport, RuntimeReport};
 pub use error::DetectError;
+pub use network::{Element, Network, Port, Tensor};
+pub use options::{ClassChoice, DetectorOptions, RuntimeChoice, TilingChoice};

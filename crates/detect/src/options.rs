@@ -1,0 +1,74 @@
+use crate::{DetectError, Detector};
+use std::path::PathBuf;
+
+/// Which runtime runs the network.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub enum RuntimeChoice {
+    /// ONNX Runtime where a usable library is found, else the embedded one.
+    #[default]
+    Automatic,
+    /// ONNX Runtime from this library, or an error.
+    Library(PathBuf),
+    /// ONNX Runtime from the usual places, or an error.
+    OnnxRuntime,
+    /// The embedded one.
+    Embedded,
+}
+
+/// Which of the model's classes is an apple.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum ClassChoice {
+    /// By its number.
+    Number(usize),
+    /// By its name in the description beside the model or in the model's own metadata.
+    Name(String),
+}
+
+/// How a large image is cut.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum TilingChoice {
+    /// By the sizes of image and model.
+    #[default]
+    Automatic,
+    /// Not at all: the image is scaled to the model's input.
+    Whole,
+    /// Into so many columns and rows.
+    Grid {
+        /// Columns.
+        columns: usize,
+        /// Rows.
+        rows: usize,
+    },
+}
+
+/// How to open a detector.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct DetectorOptions {
+    /// The model, ONNX; the built-in one where absent. A description `MODEL.toml` beside it is read.
+    pub model: Option<PathBuf>,
+    /// What runs it.
+    pub runtime: RuntimeChoice,
+    /// The class that counts; by the description, else class 0, where absent.
+    pub class: Option<ClassChoice>,
+    /// Lowest score that counts, 0 to 1; by the description, else the family's usual, where absent.
+    pub threshold: Option<f64>,
+    /// IoU above which two boxes are one apple, 0 to 1; by the description, else the family's usual.
+    pub overlap: Option<f64>,
+    /// How a large image is cut.
+    pub tiling: TilingChoice,
+}
+
+impl DetectorOptions {
+    /// Opens the detector.
+    ///
+    /// # Errors
+    ///
+    /// [`DetectError`] for a model, a description, a runtime or a setting that cannot be used.
+    pub fn open(&self) -> Result<Box<dyn Detector>, DetectError> {
+        Err(DetectError::Runtime {
+            runtime: "detector".to_owned(),
+            problem: "this build holds none".to_owned(),
+            remedy: "give boxes".to_owned(),
+        })
+    }
+}

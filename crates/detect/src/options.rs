@@ -1,4 +1,5 @@
 use crate::{DetectError, Detector};
+use serde::Deserialize;
 use std::path::PathBuf;
 
 /// Which runtime runs the network.
@@ -16,11 +17,12 @@ pub enum RuntimeChoice {
 }
 
 /// Which of the model's classes is an apple.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[serde(untagged, expecting = "expected a class's name or number")]
 pub enum ClassChoice {
     /// By its number.
     Number(usize),
-    /// By its name in the description beside the model or in the model's own metadata.
+    /// By its name in the description beside the model, or among COCO's where a model of 80 classes has no names.
     Name(String),
 }
 
@@ -44,15 +46,15 @@ pub enum TilingChoice {
 /// How to open a detector.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct DetectorOptions {
-    /// The model, ONNX; the built-in one where absent. A description `MODEL.toml` beside it is read.
+    /// The model, ONNX; the built-in one where absent. `MODEL.toml` beside `MODEL.onnx` is read.
     pub model: Option<PathBuf>,
     /// What runs it.
     pub runtime: RuntimeChoice,
-    /// The class that counts; by the description, else class 0, where absent.
+    /// The class that counts; by the description, else the one named `apple`, else class 0, where absent.
     pub class: Option<ClassChoice>,
-    /// Lowest score that counts, 0 to 1; by the description, else the family's usual, where absent.
+    /// Lowest score that counts, 0 to 1; by the description, else 0.25, where absent.
     pub threshold: Option<f64>,
-    /// IoU above which two boxes are one apple, 0 to 1; by the description, else the family's usual.
+    /// IoU above which two boxes are one apple, 0 to 1; by the description, else 0.45.
     pub overlap: Option<f64>,
     /// How a large image is cut.
     pub tiling: TilingChoice,

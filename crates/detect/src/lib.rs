@@ -14,8 +14,10 @@ mod detection;
 mod error;
 mod network;
 mod options;
+mod runtime;
 
 pub use detection::{Detection, Detector, DetectorReport, RuntimeReport};
 pub use error::DetectError;
 pub use network::{Element, Network, Port, Tensor};
 pub use options::{ClassChoice, DetectorOptions, RuntimeChoice, TilingChoice};
+pub use runtime::{ModelSource, open_network};

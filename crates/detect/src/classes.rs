@@ -145,6 +145,27 @@ pub(crate) fn choose(
     }
 }
 
+/// The names that an exporter wrote into the model under `names`, as Ultralytics' does: `{0: 'leaf', 1: 'apple'}`,
+/// numbered from 0 without a gap. `None` where there are none, or they are written otherwise.
+pub(crate) fn from_metadata(metadata: &[(String, String)]) -> Option<Vec<String>> {
+    let (_, text) = metadata.iter().find(|(key, _)| key == "names")?;
+    let mut rest = text.trim().strip_prefix('{')?.strip_suffix('}')?.trim();
+    let mut names = Vec::new();
+    while !rest.is_empty() {
+        let (number, after) = rest.split_once(':')?;
+        if number.trim().parse() != Ok(names.len()) {
+            return None;
+        }
+        let after = after.trim_start();
+        let quote = after.chars().next().filter(|c| matches!(c, '\'' | '"'))?;
+        let (name, after) = after[1..].split_once(quote)?;
+        names.push(name.to_owned());
+        rest = after.trim_start();
+        rest = rest.strip_prefix(',').unwrap_or(rest).trim_start();
+    }
+    (!names.is_empty()).then_some(names)
+}
+
 /// Whether a model of `count` classes has one of this number; passes where the count is not known.
 pub(crate) fn check(number: usize, count: Option<usize>) -> Result<(), Fault> {
     match count {
@@ -180,6 +201,29 @@ mod tests {
         assert_eq!(choose(None, None, Some(80)), Ok(47));
         assert_eq!(choose(Some(&name("orange")), None, Some(80)), Ok(49));
         assert_eq!(choose(Some(&ClassChoice::Number(7)), None, None), Ok(7));
+    }
+
+    #[test]
+    fn names_in_the_model_are_read() {
+        let names = |text: &str| from_metadata(&[("names".to_owned(), text.to_owned())]);
+        let expected = Some(vec!["leaf".to_owned(), "farmer's apple".to_owned()]);
+        assert_eq!(names("{0: 'leaf', 1: \"farmer's apple\"}"), expected);
+        assert_eq!(names("{0: 'leaf', 1: \"farmer's apple\",}"), expected);
+        for bad in [
+            "",
+            "{",
+            "{}",
+            "{}}",
+            "{0: }",
+            "{0: 'a}",
+            "{1: 'a'}",
+            "['a']",
+            "{0: 'a' 2: 'b'}",
+            "{0: é}",
+        ] {
+            assert_eq!(names(bad), None, "{bad}");
+        }
+        assert_eq!(from_metadata(&[]), None);
     }
 
     #[test]

@@ -29,7 +29,7 @@ pub(crate) struct Decoder {
     pub(crate) input: [usize; 2],
     pub(crate) class: usize,
     pub(crate) threshold: f64,
-    /// Number of classes, where the description tells.
+    /// Number of classes, where they have names.
     pub(crate) classes: Option<usize>,
     pub(crate) strides: Option<Vec<usize>>,
     pub(crate) anchors: Option<Vec<[f32; 2]>>,
@@ -67,14 +67,14 @@ impl Decoder {
         })
     }
 
-    /// Refuses a number of classes that the description or the choice contradicts.
+    /// Refuses a number of classes that their names or the choice contradict.
     fn check_classes(&self, place: &str, count: usize) -> Result<(), Fault> {
         if let Some(named) = self.classes
             && named != count
         {
             return Err(Fault::new(
                 place,
-                format!("{count} classes, where the description names {named}"),
+                format!("{count} classes, of which {named} are named"),
                 "name every class of the model in `classes`, in its order, or state its `family`",
             ));
         }

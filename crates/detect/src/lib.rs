@@ -78,6 +78,7 @@
 //! - Solovyev, Wang and Gabruseva, Weighted boxes fusion, Image and Vision Computing 107, 2021,
 //!   doi 10.1016/j.imavis.2021.104117.
 
+mod built_in;
 mod classes;
 mod decode;
 mod description;
@@ -93,6 +94,7 @@ mod onnx_detector;
 mod options;
 mod ports;
 mod resample;
+mod runtime;
 mod suppress;
 mod tiling;
 
@@ -105,4 +107,5 @@ pub use letterbox::{ChannelOrder, Letterbox, Padding, Preparation};
 pub use network::{Element, Network, Port, Tensor};
 pub use onnx_detector::OnnxDetector;
 pub use options::{ClassChoice, DetectorOptions, RuntimeChoice, TilingChoice};
+pub use runtime::{ModelSource, open_network};
 pub use suppress::{Scope, suppress};

@@ -72,6 +72,11 @@ impl OnnxDetector {
         options: &DetectorOptions,
     ) -> Result<(Inputs, [usize; 2], Decoder, Vec<String>), Fault> {
         description.check()?;
+        let mut description = description.clone();
+        if description.classes.is_none() {
+            description.classes = classes::from_metadata(network.metadata());
+        }
+        let description = &description;
         let inputs = Inputs::of(network.inputs())?;
         let image = &network.inputs()[inputs.image];
         let sides = ports::input_size(image, description.input_size)?;

@@ -1,4 +1,6 @@
-use crate::{DetectError, Detector};
+use crate::{
+    DetectError, Detector, ModelDescription, ModelSource, OnnxDetector, built_in, open_network,
+};
 use serde::Deserialize;
 use std::path::PathBuf;
 
@@ -22,7 +24,8 @@ pub enum RuntimeChoice {
 pub enum ClassChoice {
     /// By its number.
     Number(usize),
-    /// By its name in the description beside the model, or among COCO's where a model of 80 classes has no names.
+    /// By its name in the description beside the model or in the model's own metadata, or among COCO's where a
+    /// model of 80 classes has no names.
     Name(String),
 }
 
@@ -67,10 +70,17 @@ impl DetectorOptions {
     ///
     /// [`DetectError`] for a model, a description, a runtime or a setting that cannot be used.
     pub fn open(&self) -> Result<Box<dyn Detector>, DetectError> {
-        Err(DetectError::Runtime {
-            runtime: "detector".to_owned(),
-            problem: "this build holds none".to_owned(),
-            remedy: "give boxes".to_owned(),
-        })
+        let (source, name, description) = match &self.model {
+            Some(path) => (
+                ModelSource::File(path.clone()),
+                path.display().to_string(),
+                ModelDescription::beside(path)?,
+            ),
+            None => built_in::model()?,
+        };
+        // One thread to a run: the tiles are what is shared among the cores.
+        let network = open_network(&source, &self.runtime, 1)?;
+        let detector = OnnxDetector::new(network, name, &description, self)?;
+        Ok(Box::new(detector))
     }
 }

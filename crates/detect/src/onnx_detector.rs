@@ -175,10 +175,17 @@ impl Detector for OnnxDetector {
             .map(|window| self.look(image, window))
             .collect();
         let mut views = looked.into_iter().collect::<Result<Vec<View>, _>>()?;
-        match &mut views[..] {
-            [view] => Ok(std::mem::take(&mut view.detections)),
-            views => Ok(fuse(views, size, self.overlap)),
+        if let [view] = &mut views[..] {
+            return Ok(std::mem::take(&mut view.detections));
         }
+        let smallest = self.tiling.smallest_in_whole_pass();
+        for view in &mut views {
+            if [view.window.width(), view.window.height()] == size {
+                let side = |d: &Detection| (d.x_max - d.x_min).max(d.y_max - d.y_min);
+                view.detections.retain(|d| side(d) >= smallest);
+            }
+        }
+        Ok(fuse(&views, size, self.overlap))
     }
 
     fn report(&self) -> DetectorReport {

@@ -61,6 +61,12 @@ impl Tiling {
         })
     }
 
+    /// Longer side in pixels of the image below which a box in the pass over the whole image says nothing: half of
+    /// what the tiles share. One of the tiles shows what is so small whole, and larger.
+    pub(crate) fn smallest_in_whole_pass(&self) -> f64 {
+        self.overlap as f64 / 2.0
+    }
+
     /// The windows of an image of `[width, height]` pixels to look at; together they hold every pixel.
     ///
     /// Several ones are the tiles row by row, and then, where wanted, the whole image, in which large close
@@ -80,9 +86,11 @@ impl Tiling {
             return vec![whole];
         }
         let least = [0, 1].map(|k| least_length(image[k], counts[k], overlaps[k]));
-        // The shorter side gets what the input has room for at the same scale.
-        let shrink =
-            (least[0] as f64 / self.input[0] as f64).max(least[1] as f64 / self.input[1] as f64);
+        // What the input has room for costs nothing: up to the image's own resolution, and beyond it the shorter
+        // side at the longer one's scale.
+        let reduction = |k: usize| least[k] as f64 / self.input[k] as f64;
+        let native = (self.longest[0] as f64 / self.input[0] as f64).min(1.0);
+        let shrink = reduction(0).max(reduction(1)).max(native);
         let lengths = [0, 1].map(|k| {
             let room = (self.input[k] as f64 * shrink).round() as usize;
             least[k].max(room).min(image[k])
@@ -175,6 +183,12 @@ mod tests {
         assert_eq!(automatic.windows([416, 416]).len(), 1);
         assert_eq!(automatic.windows([540, 300]).len(), 1);
         assert_eq!(automatic.windows([541, 300]).len(), 3);
+        // Not scaled, where the tiles need not be longer than the input.
+        let pair = automatic.windows([620, 400]);
+        assert_eq!(
+            (pair.len(), pair[0].width(), pair[0].height()),
+            (3, 416, 400)
+        );
         let full_hd = automatic.windows([1920, 1080]);
         assert_eq!(full_hd.len(), 4 * 3 + 1);
         assert_eq!(

@@ -314,7 +314,7 @@ const OWN: [[f64; 2]; 6] = [
 const OWN_TOML: &str = "anchors = [[9, 9], [17, 18], [30, 31], [40, 50], [60, 60], [99, 90]]";
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(24))]
+    #![proptest_config(ProptestConfig::with_cases(8))]
 
     #[test]
     fn yolov3_in_every_layout(objects in objects(), layout in 0..LAYOUTS.len()) {

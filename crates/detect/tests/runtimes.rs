@@ -1,5 +1,7 @@
 //! Both runtimes on the same models, and one network on many threads.
 
+#![allow(clippy::unwrap_used, reason = "a test may stop at the first surprise")]
+
 mod support;
 
 use pomona_detect::{Element, ModelSource, Network, RuntimeChoice, Tensor, open_network};

@@ -2,6 +2,7 @@
 //! once, so each case has a process of its own.
 
 #![cfg(all(feature = "onnxruntime", feature = "embedded", target_os = "linux"))]
+#![allow(clippy::unwrap_used, reason = "a test may stop at the first surprise")]
 
 mod support;
 

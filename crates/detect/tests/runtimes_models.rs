@@ -1,5 +1,7 @@
 //! Models that cannot be used: each gives a message with the file, the place and the remedy.
 
+#![allow(clippy::unwrap_used, reason = "a test may stop at the first surprise")]
+
 mod support;
 
 use pomona_detect::{ModelSource, RuntimeChoice, open_network};

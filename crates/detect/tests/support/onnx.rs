@@ -154,8 +154,12 @@ impl Model {
         attributes: &[(&str, Attribute)],
     ) {
         let mut node = Message::default();
-        inputs.iter().for_each(|name| node.text(1, name));
-        outputs.iter().for_each(|name| node.text(2, name));
+        for name in inputs {
+            node.text(1, name);
+        }
+        for name in outputs {
+            node.text(2, name);
+        }
         node.text(3, &format!("{operator} to {}", outputs[0]));
         node.text(4, operator);
         for (name, value) in attributes {
@@ -175,9 +179,9 @@ impl Model {
                     3
                 }
                 Attribute::Ints(numbers) => {
-                    numbers
-                        .iter()
-                        .for_each(|&number| attribute.number(8, number));
+                    for &number in numbers {
+                        attribute.number(8, number);
+                    }
                     7
                 }
             };
@@ -222,7 +226,7 @@ impl Model {
         self.raw_weights(name, self.element, shape, &bytes);
     }
 
-    /// A convolution that keeps or divides the size, with a bias, and a leaky ReLU unless it is a head.
+    /// A convolution that keeps or divides the size, with a bias, and a leaky rectifier unless it is a head.
     pub(crate) fn convolution(
         &mut self,
         from: &str,
@@ -289,7 +293,9 @@ impl Model {
 
 fn tensor(name: &str, element: i64, shape: &[i64]) -> Message {
     let mut tensor = Message::default();
-    shape.iter().for_each(|&axis| tensor.number(1, axis));
+    for &axis in shape {
+        tensor.number(1, axis);
+    }
     tensor.number(2, element);
     tensor.text(8, name);
     tensor

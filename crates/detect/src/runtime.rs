@@ -2,6 +2,13 @@
 //!
 //! The model's file is read and checked here, the same way for both, so that a damaged or foreign file
 //! gets the same message from either and both name the same inputs and outputs.
+#![cfg_attr(
+    not(all(feature = "onnxruntime", feature = "embedded")),
+    allow(
+        dead_code,
+        reason = "what both runtimes share may have one user or none"
+    )
+)]
 
 mod apart;
 #[cfg(feature = "embedded")]
@@ -56,94 +63,49 @@ pub fn open_network(
     threads: usize,
 ) -> Result<Box<dyn Network>, DetectError> {
     let model = Model::read(source)?;
-    let threads = threads.max(1);
-    match choice {
-        RuntimeChoice::Embedded => embedded(model, threads, None),
-        RuntimeChoice::OnnxRuntime | RuntimeChoice::Library(_) => {
-            onnx_runtime(model, choice, threads).map_err(|refusal| refusal.error)
-        }
-        RuntimeChoice::Automatic => automatic(model, threads),
-    }
-}
-
-/// A runtime that does not serve, and the model to try with another one.
-struct Refusal {
-    error: DetectError,
-    #[cfg_attr(
-        not(all(feature = "onnxruntime", feature = "embedded")),
-        allow(dead_code, reason = "there is nothing to fall back on")
-    )]
-    model: Option<Model>,
-}
-
-#[cfg(all(feature = "onnxruntime", feature = "embedded"))]
-fn automatic(model: Model, threads: usize) -> Result<Box<dyn Network>, DetectError> {
-    match onnx_runtime(model, &RuntimeChoice::Automatic, threads) {
-        Ok(network) => Ok(network),
-        Err(Refusal { error, model }) => match model {
-            Some(model) => embedded(model, threads, Some(error.to_string())),
-            None => Err(error),
+    let open = match choice {
+        RuntimeChoice::Embedded => embedded(None)?,
+        RuntimeChoice::OnnxRuntime | RuntimeChoice::Library(_) => onnx_runtime(choice)?,
+        RuntimeChoice::Automatic => match onnx_runtime(choice) {
+            Ok(open) => open,
+            Err(error) => embedded(Some(error.to_string())).map_err(|_| error)?,
         },
-    }
+    };
+    open(model, threads.max(1))
 }
 
-#[cfg(all(feature = "onnxruntime", not(feature = "embedded")))]
-fn automatic(model: Model, threads: usize) -> Result<Box<dyn Network>, DetectError> {
-    onnx_runtime(model, &RuntimeChoice::Automatic, threads).map_err(|refusal| refusal.error)
-}
-
-#[cfg(not(feature = "onnxruntime"))]
-fn automatic(model: Model, threads: usize) -> Result<Box<dyn Network>, DetectError> {
-    embedded(model, threads, None)
-}
+/// Opens a model, with so many threads to a run, in a runtime that serves.
+type Open = Box<dyn FnOnce(Model, usize) -> Result<Box<dyn Network>, DetectError>>;
 
 #[cfg(feature = "onnxruntime")]
-fn onnx_runtime(
-    model: Model,
-    choice: &RuntimeChoice,
-    threads: usize,
-) -> Result<Box<dyn Network>, Refusal> {
-    match library::load(choice) {
-        Ok(library) => match onnxruntime::OnnxRuntime::open(model, library, threads) {
-            Ok(network) => Ok(Box::new(network)),
-            Err(error) => Err(Refusal { error, model: None }),
-        },
-        Err(error) => Err(Refusal {
-            error,
-            model: Some(model),
-        }),
-    }
+fn onnx_runtime(choice: &RuntimeChoice) -> Result<Open, DetectError> {
+    let library = library::load(choice)?;
+    Ok(Box::new(|model, threads| {
+        let network = onnxruntime::OnnxRuntime::open(model, library, threads)?;
+        Ok(Box::new(network))
+    }))
 }
 
 #[cfg(not(feature = "onnxruntime"))]
-fn onnx_runtime(
-    _model: Model,
-    _choice: &RuntimeChoice,
-    _threads: usize,
-) -> Result<Box<dyn Network>, Refusal> {
-    Err(Refusal {
-        error: left_out("ONNX Runtime", "onnxruntime"),
-        model: None,
-    })
+fn onnx_runtime(_choice: &RuntimeChoice) -> Result<Open, DetectError> {
+    Err(left_out("ONNX Runtime", "onnxruntime"))
 }
 
 #[cfg(feature = "embedded")]
-fn embedded(
-    model: Model,
-    threads: usize,
-    fallback_reason: Option<String>,
-) -> Result<Box<dyn Network>, DetectError> {
-    let network = embedded::Embedded::open(model, threads, fallback_reason)?;
-    Ok(Box::new(network))
+#[expect(
+    clippy::unnecessary_wraps,
+    reason = "a build without it has only an error"
+)]
+fn embedded(fallback_reason: Option<String>) -> Result<Open, DetectError> {
+    Ok(Box::new(|model, threads| {
+        let network = embedded::Embedded::open(model, threads, fallback_reason)?;
+        Ok(Box::new(network))
+    }))
 }
 
 #[cfg(not(feature = "embedded"))]
-fn embedded(
-    _model: Model,
-    _threads: usize,
-    _fallback_reason: Option<String>,
-) -> Result<Box<dyn Network>, DetectError> {
-    Err(left_out("embedded runtime", "embedded"))
+fn embedded(_fallback_reason: Option<String>) -> Result<Open, DetectError> {
+    Err(left_out("the embedded runtime", "embedded"))
 }
 
 #[cfg(not(all(feature = "onnxruntime", feature = "embedded")))]
@@ -151,7 +113,9 @@ fn left_out(runtime: &str, feature: &str) -> DetectError {
     DetectError::Runtime {
         runtime: runtime.to_owned(),
         problem: "left out of this build".to_owned(),
-        remedy: format!("build pomona-detect with its feature `{feature}`, or choose another one"),
+        remedy: format!(
+            "build pomona-detect with its feature `{feature}`, or choose the other runtime"
+        ),
     }
 }
 

@@ -103,7 +103,7 @@ impl FileKind {
     }
 }
 
-/// A zip archive; PyTorch's checkpoints are such.
+/// A zip archive; checkpoints of `PyTorch` are such.
 fn archive(bytes: &[u8]) -> FileKind {
     let head = &bytes[..bytes.len().min(256)];
     let holds = |name: &[u8]| head.windows(name.len()).any(|part| part == name);

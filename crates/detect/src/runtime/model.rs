@@ -1,6 +1,6 @@
 use super::file_kind::FileKind;
 use super::summary::{Flaw, Summary, shape_text};
-use super::{MOST_NUMBERS, ModelSource, unreadable};
+use super::{MOST_NUMBERS, ModelSource, product, unreadable};
 use crate::{DetectError, Element, Port};
 use std::borrow::Cow;
 use std::path::{Component, Path};
@@ -187,9 +187,8 @@ fn check_ports(model: &str, summary: &Summary) -> Result<(), DetectError> {
         if port.element == Element::Other {
             return Err(unreadable(model, "input", port, "another kind of number"));
         }
-        let least = port.shape.iter().map(|axis| axis.unwrap_or(1));
-        let numbers = least.fold(Some(1_usize), |all, axis| all?.checked_mul(axis));
-        if numbers.is_none_or(|numbers| numbers > MOST_NUMBERS) {
+        let least: Vec<usize> = port.shape.iter().map(|axis| axis.unwrap_or(1)).collect();
+        if product(&least).is_none_or(|numbers| numbers > MOST_NUMBERS) {
             return flaw(
                 format!("input `{}`", port.name),
                 format!("{} is larger than any image", shape_text(&port.shape)),

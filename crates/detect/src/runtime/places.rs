@@ -176,3 +176,113 @@ fn entries(folder: &Path, prefix: &str) -> Vec<PathBuf> {
     paths.reverse();
     paths
 }
+
+#[cfg(test)]
+#[cfg(target_os = "linux")]
+mod tests {
+    use super::*;
+
+    struct Machine(tempfile::TempDir);
+
+    impl Machine {
+        fn with(files: &[&str]) -> Self {
+            let machine = Self(tempfile::tempdir().unwrap());
+            for file in files {
+                let path = machine.0.path().join(file);
+                std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+                std::fs::write(path, "").unwrap();
+            }
+            machine
+        }
+
+        /// What is found, relative to the root, with variables whose paths begin at the root.
+        fn found(&self, variables: &[(&str, &str)]) -> Vec<String> {
+            let root = self.0.path().canonicalize().unwrap();
+            let variable = |name: &str| {
+                let value = variables.iter().find(|(key, _)| *key == name)?.1;
+                let paths = value.split(':').map(|path| match path.strip_prefix('/') {
+                    Some(path) => root.join(path),
+                    None => PathBuf::from(path),
+                });
+                Some(std::env::join_paths(paths).unwrap())
+            };
+            let surroundings = Surroundings {
+                variable: &variable,
+                program: Some(root.join("program")),
+                root: root.clone(),
+            };
+            let libraries = surroundings.libraries();
+            let names = libraries
+                .iter()
+                .map(|path| path.strip_prefix(&root).unwrap());
+            names.map(|path| path.display().to_string()).collect()
+        }
+    }
+
+    #[test]
+    fn nothing_is_found_where_nothing_is() {
+        assert!(
+            Machine::with(&[])
+                .found(&[("HOME", "/home/me"), ("PATH", "/usr/bin")])
+                .is_empty()
+        );
+    }
+
+    #[test]
+    fn the_nearest_place_comes_first() {
+        let machine = Machine::with(&[
+            "usr/lib/python3/dist-packages/onnxruntime/capi/libonnxruntime.so.1.25.0",
+            "usr/lib/libonnxruntime.so.1.24.1",
+            "own/libonnxruntime.so",
+            "program/libonnxruntime.so",
+        ]);
+        let expected = [
+            "program/libonnxruntime.so",
+            "own/libonnxruntime.so",
+            "usr/lib/libonnxruntime.so.1.24.1",
+            "usr/lib/python3/dist-packages/onnxruntime/capi/libonnxruntime.so.1.25.0",
+        ];
+        assert_eq!(
+            machine.found(&[("LD_LIBRARY_PATH", "/own:relative")]),
+            expected
+        );
+    }
+
+    #[test]
+    fn the_newest_comes_first_and_links_count_once() {
+        let machine = Machine::with(&[
+            "usr/lib/libonnxruntime.so.1.9.0",
+            "usr/lib/libonnxruntime.so.1.24.1",
+            "usr/lib/libonnxruntime_providers_shared.so",
+        ]);
+        let folder = machine.0.path().join("usr/lib");
+        std::os::unix::fs::symlink("libonnxruntime.so.1.24.1", folder.join("libonnxruntime.so"))
+            .unwrap();
+        let expected = [
+            "usr/lib/libonnxruntime.so.1.24.1",
+            "usr/lib/libonnxruntime.so.1.9.0",
+        ];
+        assert_eq!(machine.found(&[]), expected);
+    }
+
+    #[test]
+    fn python_packages_of_environments_and_users() {
+        let capi = "site-packages/onnxruntime/capi/libonnxruntime.so.1.32.0";
+        let files = [
+            format!("venv/lib/python3.11/{capi}"),
+            format!("conda/lib/python3.9/{capi}"),
+            format!("conda/lib/python3.12/{capi}"),
+            format!("home/me/.local/lib/python3.13/{capi}"),
+            format!("home/me/.pyenv/versions/3.12.1/lib/python3.12/{capi}"),
+            format!("other/lib/python3.12/{capi}"),
+            "other/bin/python3".to_owned(),
+        ];
+        let machine = Machine::with(&files.each_ref().map(String::as_str));
+        let found = |variables| machine.found(variables);
+        assert_eq!(found(&[("VIRTUAL_ENV", "/venv")]), files[..1]);
+        let conda = found(&[("CONDA_PREFIX", "/conda")]);
+        assert_eq!(conda, [files[2].as_str(), files[1].as_str()]);
+        assert_eq!(found(&[("HOME", "/home/me")]), files[3..5]);
+        assert_eq!(found(&[("PATH", "/other/bin")]), files[5..6]);
+    }
+}

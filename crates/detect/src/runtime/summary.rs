@@ -115,8 +115,8 @@ impl Reading {
             .extend(locations.map(|(_, path)| path));
         let is_here = self.summary.external.len() == before;
         if let (Some(bytes), Some(size), true) = (bytes, size_of(element), is_here) {
-            let axes = shape.iter().map(|&axis| usize::try_from(axis).ok());
-            let wanted = axes.fold(Some(size), |all, axis| all?.checked_mul(axis?));
+            let mut axes = shape.iter().map(|&axis| usize::try_from(axis).ok());
+            let wanted = axes.try_fold(size, |all, axis| all.checked_mul(axis?));
             if wanted != Some(bytes) && self.flaw.is_none() {
                 self.flaw = Some(Flaw {
                     place: format!("weights `{name}`"),
@@ -282,4 +282,28 @@ pub(super) fn shape_text(shape: &[Option<usize>]) -> String {
     }
     text.push(']');
     text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn any_bytes_give_a_summary_or_a_flaw(bytes in proptest::collection::vec(any::<u8>(), 0..300)) {
+            let _ = Summary::parse(&bytes);
+            // Behind a version and a graph of one output, so that the reading goes deeper.
+            let mut model = vec![0x08, 0x08, 0x3a, 0x80, 0x04];
+            model.extend(&bytes);
+            model.resize(5 + 512, 0x62);
+            let _ = Summary::parse(&model);
+        }
+    }
+
+    #[test]
+    fn shapes_in_messages() {
+        assert_eq!(shape_text(&[Some(1), None, Some(3)]), "[1, ?, 3]");
+        assert_eq!(shape_text(&[]), "[]");
+    }
 }

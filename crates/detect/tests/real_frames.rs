@@ -1,5 +1,7 @@
 //! A published network on real frames, where the folder with both is there.
 
+#![allow(clippy::unwrap_used, reason = "helpers of tests fail as tests do")]
+
 use pomona_cloud::{Frame, PixelBox};
 use pomona_detect::{ClassChoice, Detection, DetectorOptions, RuntimeChoice, TilingChoice};
 use std::path::{Path, PathBuf};

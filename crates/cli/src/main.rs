@@ -8,6 +8,8 @@ mod calibrate;
 mod completions;
 mod config;
 mod convert;
+#[allow(dead_code, reason = "its commands follow")]
+mod detector;
 mod evaluate;
 mod fuse;
 mod inspect;

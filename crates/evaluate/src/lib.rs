@@ -30,6 +30,9 @@
 //! - [`report_page`] and [`apples_csv`] are what `report.html` and `apples.csv` hold.
 //! - [`measure_calipers`] sets fitted radii beside measured diameters on real frames, and
 //!   aligns the apples of two frames of one tree.
+//! - [`evaluate_detections`] measures detectors, and boxes of other programs, on the labels of a
+//!   [`DetectionDataset`]: precision over recall ([`Curve`]), recall by size, what is missed and what is found
+//!   besides, with intervals and paired differences.
 //! - [`paper_figures`] holds every figure of the paper that ours is set beside.
 //!
 //! # Not here
@@ -44,6 +47,7 @@
 
 mod calipers;
 mod comparison;
+mod detection;
 mod error;
 mod grouping;
 mod lab;
@@ -65,6 +69,12 @@ pub use calipers::{
     CaliperRow, measure_calipers, read_calipers,
 };
 pub use comparison::{Comparison, compare};
+pub use detection::{
+    AtThreshold, BestF1, COCO_SIZES, Curve, CurvePoint, DETECTION_SCHEMA, DatasetRecord,
+    DetectionDataset, DetectionDifference, DetectionEvaluation, DetectionResult, DetectionSettings,
+    DetectionSource, Estimate, FINE_SIZES, ImageOutcome, Label, LabelForm, LabelledImage, Outcome,
+    SizeClass, SizeRecall, WorstImage, evaluate_detections, match_detections, read_detections,
+};
 pub use error::EvaluateError;
 pub use grouping::{Difficulty, Group, Grouping};
 pub use lab::LabRow;

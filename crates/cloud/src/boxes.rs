@@ -42,15 +42,20 @@ pub fn read_boxes(
     width: usize,
     height: usize,
 ) -> Result<Vec<PixelBox>, CloudError> {
+    let path = path.as_ref();
     let labels = read_labels(path, width, height)?;
-    Ok(labels.into_iter().map(|label| label.bounds).collect())
+    let boxes: Vec<PixelBox> = labels.into_iter().map(|label| label.bounds).collect();
+    validate_all(path, &boxes, width, height)?;
+    Ok(boxes)
 }
 
 /// Reads the boxes of a `width` × `height` image with their classes, as [`read_boxes`] does without.
 ///
+/// Boxes that hold no pixel are read too, if they touch the image: a label may be a sliver at its edge.
+///
 /// # Errors
 ///
-/// As [`read_boxes`].
+/// As [`read_boxes`], but for such boxes.
 pub fn read_labels(
     path: impl AsRef<Path>,
     width: usize,
@@ -59,12 +64,7 @@ pub fn read_labels(
     let path = path.as_ref();
     let bytes = file::read_bytes(path)?;
     let labels = parse(&bytes, width, height).map_err(|fault| fault.at(path))?;
-    validate_all(
-        path,
-        labels.iter().map(|label| &label.bounds),
-        width,
-        height,
-    )?;
+    touch_all(path, &labels, width, height)?;
     Ok(labels)
 }
 
@@ -92,18 +92,34 @@ pub fn write_boxes(
     file::write_atomically(path, text.as_bytes())
 }
 
-pub(crate) fn validate_all<'a>(
+pub(crate) fn validate_all(
     path: &Path,
-    boxes: impl IntoIterator<Item = &'a PixelBox>,
+    boxes: &[PixelBox],
     width: usize,
     height: usize,
 ) -> Result<(), CloudError> {
-    boxes.into_iter().try_for_each(|b| {
-        b.validate(width, height).map_err(|source| CloudError::Box {
-            path: path.to_owned(),
-            source,
-        })
-    })
+    let checked = boxes.iter().try_for_each(|b| b.validate(width, height));
+    checked.map_err(|source| at_file(path, source))
+}
+
+/// Refuses labels that do not touch their image.
+fn touch_all(
+    path: &Path,
+    labels: &[LabelledBox],
+    width: usize,
+    height: usize,
+) -> Result<(), CloudError> {
+    let checked = labels
+        .iter()
+        .try_for_each(|label| label.bounds.touches(width, height));
+    checked.map_err(|source| at_file(path, source))
+}
+
+fn at_file(path: &Path, source: BoxError) -> CloudError {
+    CloudError::Box {
+        path: path.to_owned(),
+        source,
+    }
 }
 
 fn parse(bytes: &[u8], width: usize, height: usize) -> Result<Vec<LabelledBox>, Fault> {

@@ -82,7 +82,7 @@ pub use matching::{SAME_APPLE_IOU, match_picks};
 pub use method::PickMethod;
 pub use reliability::{ConfidenceBin, RIGHT_RAD, Reliability, RiskPoint, SdCalibration, UNSURE};
 pub use repeatability::Repeatability;
-pub use report::{caliper_page, report_page};
+pub use report::{caliper_page, detection_page, report_page};
 pub use result::{AngleErrors, Evaluation, Refusals, SCHEMA, SuiteResult, Timing};
 pub use row::{
     AppleRow, NO_BOX, VISIBLE_APPLE_SHARE, VISIBLE_BRANCH_LENGTH_M, VISIBLE_BRANCH_PIXELS,

@@ -1,5 +1,10 @@
 //! Detections against labels: what the figures are on sets whose answer is known, and what they must not depend on.
 
+#![allow(
+    clippy::unwrap_used,
+    reason = "the functions that tests share are tests too"
+)]
+
 use pomona_cloud::{ColorImage, LabelKind, LabelledBox, PixelBox};
 use pomona_detect::{DetectError, Detection, Detector, DetectorReport};
 use pomona_evaluate::{

@@ -7,7 +7,7 @@ pub(super) use listing::{files_below, is_about_labels, is_label};
 
 use crate::EvaluateError;
 use listing::entries;
-use pomona_cloud::LabelledBox;
+use pomona_cloud::{LabelKind, LabelledBox};
 use pomona_detect::ClassChoice;
 use serde::Serialize;
 use std::collections::BTreeSet;
@@ -102,6 +102,26 @@ impl DetectionDataset {
         let numbers = dataset.images.iter().flat_map(|i| &i.labels);
         dataset.classes = numbers.filter_map(|label| label.class_number).collect();
         Ok(dataset)
+    }
+
+    /// Lets the labels whose name or class is `name` neither count nor punish; a `*` at its end stands for anything.
+    ///
+    /// Returns how many there are.
+    pub fn ignore(&mut self, name: &str) -> usize {
+        let is_meant = |given: &str| match name.strip_suffix('*') {
+            Some(start) => given.starts_with(start),
+            None => given == name,
+        };
+        let labels = self.images.iter_mut().flat_map(|i| &mut i.labels);
+        let mut count = 0;
+        for label in labels {
+            let class = label.class_name.as_deref();
+            if is_meant(&label.bounds.name) || class.is_some_and(is_meant) {
+                label.kind = LabelKind::Difficult;
+                count += 1;
+            }
+        }
+        count
     }
 
     /// Keeps the labels of one class; says what there is where none is of it.

@@ -133,7 +133,9 @@ fn places(file: &Path) -> Vec<PathBuf> {
     let split = stem.rsplit_once('_').map(|(_, split)| split.to_owned());
     let beside = file.parent().unwrap_or(Path::new(""));
     let mut places = Vec::new();
-    for base in [Some(beside), beside.parent()].into_iter().flatten() {
+    let is_below = beside.file_name().is_some_and(|name| name == "annotations");
+    let above = beside.parent().filter(|_| is_below);
+    for base in [Some(beside), above].into_iter().flatten() {
         places.extend([base.to_owned(), base.join("images")]);
         if let Some(split) = split.as_deref().filter(|split| !split.is_empty()) {
             places.extend([base.join(split), base.join("images").join(split)]);

@@ -194,6 +194,22 @@ impl Path {
         }
     }
 
+    /// The pose alone at a time, as [`Path::sample`] gives it.
+    pub(crate) fn pose(&self, time_s: f64) -> Isometry3<f64> {
+        let time_s = time_s.clamp(0.0, self.duration_s());
+        let later = self.pieces.partition_point(|piece| piece.start_s <= time_s);
+        let piece = &self.pieces[later.saturating_sub(1)];
+        let share = if time_s < self.pre_grasp_s {
+            self.share.position(time_s).x
+        } else {
+            1.0
+        };
+        Isometry3::from_parts(
+            piece.curve.position(time_s - piece.start_s).into(),
+            self.start_rotation * UnitQuaternion::from_scaled_axis(self.turn * share),
+        )
+    }
+
     /// `count` samples at equal steps from the start to the end; at least two.
     pub fn samples(&self, count: usize) -> Vec<Sample> {
         let count = count.max(2);

@@ -73,8 +73,8 @@ pub(crate) struct EvaluateArguments {
     /// Send a robot to the apples: for each frame a camera is mounted on it and calibrated from noisy samples, the picks
     /// are planned, and the gripper is compared with the truth in the base's frame. With =FILE a robot's settings
     /// (see `pomona config --robot`).
-    #[arg(long, value_name = "FILE", num_args = 0..=1, require_equals = true, default_missing_value = "", conflicts_with = "calipers")]
-    robot: Option<PathBuf>,
+    #[arg(long, value_name = "FILE", num_args = 0..=1, require_equals = true, conflicts_with = "calipers")]
+    robot: Option<Option<PathBuf>>,
     /// Noise of the calibration's samples in rotation, root mean square of the angle.
     #[arg(long, value_name = "DEG", default_value_t = 0.2, requires = "robot")]
     calibration_noise_deg: f64,
@@ -125,13 +125,10 @@ impl PickMethod for Named {
 
 /// The robot that is asked for.
 fn trial(arguments: &EvaluateArguments) -> anyhow::Result<Option<RobotTrial>> {
-    let Some(path) = &arguments.robot else {
-        return Ok(None);
-    };
-    let config = if path.as_os_str().is_empty() {
-        ApproachConfig::default()
-    } else {
-        ApproachConfig::read(path)?
+    let config = match &arguments.robot {
+        None => return Ok(None),
+        Some(None) => ApproachConfig::default(),
+        Some(Some(path)) => ApproachConfig::read(path)?,
     };
     Ok(Some(RobotTrial {
         robot: Robot::new(config)?,
@@ -371,7 +368,7 @@ mod tests {
         let dir = tempfile::tempdir().unwrap();
         let mut arguments = arguments(&["robust"]);
         arguments.out = dir.path().join("out");
-        arguments.robot = Some(PathBuf::new());
+        arguments.robot = Some(None);
         let terminal = Terminal::new(clap::ColorChoice::Never);
         run(&arguments, terminal).unwrap();
         let text = std::fs::read_to_string(arguments.out.join(EVALUATION)).unwrap();

@@ -427,7 +427,7 @@ impl Way<'_> {
 
     fn all_reached(&self, path: &Path) -> Result<(), Refusal> {
         let step = path.pre_grasp_s() / (REACH_SAMPLES - 1) as f64;
-        (0..REACH_SAMPLES).try_for_each(|i| self.reached(&path.sample(i as f64 * step).position))
+        (0..REACH_SAMPLES).try_for_each(|i| self.reached(&path.place(i as f64 * step)))
     }
 
     /// The places between start and pre-grasp to try: none; then, without a tilt, one before the fruit, from

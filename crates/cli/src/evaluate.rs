@@ -74,6 +74,10 @@ pub(crate) struct EvaluateArguments {
     /// are planned, and the gripper is compared with the truth in the base's frame. With =FILE a robot's settings
     /// (see `pomona config --robot`).
     #[arg(long, value_name = "FILE", num_args = 0..=1, require_equals = true, conflicts_with = "calipers")]
+    #[allow(
+        clippy::option_option,
+        reason = "an option whose value may be left out, as clap has it"
+    )]
     robot: Option<Option<PathBuf>>,
     /// Noise of the calibration's samples in rotation, root mean square of the angle.
     #[arg(long, value_name = "DEG", default_value_t = 0.2, requires = "robot")]

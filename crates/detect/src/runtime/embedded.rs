@@ -38,7 +38,6 @@ impl Embedded {
         let bytes = std::mem::replace(&mut model.bytes, Cow::Borrowed(&[])).into_owned();
         let load = || {
             let mut options = rten::ModelOptions::with_all_ops();
-            options.prepack_weights(true);
             for (location, bytes) in &external {
                 options.external_data(location, bytes.to_vec());
             }
@@ -187,4 +186,18 @@ fn read(model: &str, port: &Port, value: Value) -> Result<Tensor, DetectError> {
         shape,
         data,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_report_names_the_release_that_is_built_in() {
+        let manifest = concat!(env!("CARGO_MANIFEST_DIR"), "/../../Cargo.toml");
+        let manifest = std::fs::read_to_string(manifest).unwrap();
+        let line = manifest.lines().find(|line| line.starts_with("rten = "));
+        let release = VERSION.strip_prefix("rten ").unwrap();
+        assert!(line.unwrap().contains(&format!("version = \"{release}\"")));
+    }
 }

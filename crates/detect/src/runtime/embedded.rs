@@ -1,4 +1,5 @@
 use super::apart::apart;
+use super::complete::completed;
 use super::idle::Idle;
 use super::model::Model;
 use super::{matched, to_u8, unreadable};
@@ -35,7 +36,9 @@ impl Embedded {
         fallback_reason: Option<String>,
     ) -> Result<Self, DetectError> {
         let external = std::mem::take(&mut model.external);
-        let bytes = std::mem::replace(&mut model.bytes, Cow::Borrowed(&[])).into_owned();
+        let bytes = std::mem::replace(&mut model.bytes, Cow::Borrowed(&[]));
+        let refuse = |said: String| model.refused(NAME, "network", &said);
+        let bytes = completed(&bytes).map_err(refuse)?;
         let load = || {
             let mut options = rten::ModelOptions::with_all_ops();
             for (location, bytes) in &external {
@@ -43,7 +46,6 @@ impl Embedded {
             }
             options.load(bytes)
         };
-        let refuse = |said: String| model.refused(NAME, "network", &said);
         let network = apart(load)
             .map_err(refuse)?
             .map_err(|error| refuse(error.to_string()))?;

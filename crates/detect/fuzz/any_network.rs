@@ -78,7 +78,7 @@ impl Bytes<'_> {
     }
 
     fn option<T>(&mut self, value: fn(&mut Self) -> T) -> Option<T> {
-        (self.byte() % 3 == 0).then(|| value(self))
+        (self.below(3) == 0).then(|| value(self))
     }
 
     /// A number of a kind that occurs in outputs, or should not.
@@ -178,7 +178,7 @@ impl AnyNetwork {
             1 => inputs.clear(),
             _ => {}
         }
-        if shapes.len() == 3 && bytes.byte() % 2 == 0 {
+        if shapes.len() == 3 && bytes.below(2) == 0 {
             inputs.push(port(bytes, "image_shape", &[1, 2]));
         }
         let mut outputs = Vec::new();

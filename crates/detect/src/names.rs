@@ -6,7 +6,7 @@ pub(crate) fn nearest(wanted: &str, names: &[&str]) -> String {
         .iter()
         .map(|name| (distance(&wanted, &name.to_lowercase()), *name))
         .collect();
-    ranked.sort();
+    ranked.sort_unstable();
     let shown: Vec<String> = ranked
         .iter()
         .take(3)

@@ -1,5 +1,7 @@
 //! Each family read back from outputs that an encoder of the test wrote: known boxes in, the same boxes out.
 
+#![allow(clippy::unwrap_used, reason = "helpers of tests fail as tests do")]
+
 mod fake_network;
 
 use fake_network::{FakeNetwork, fixed, port};
@@ -136,8 +138,8 @@ fn rows(count: usize, objects: &[Object], unit: f64) -> Vec<f32> {
 fn yolov8(objects: &[Object]) -> (usize, Vec<f32>) {
     let (count, columns) = (3549, 4 + CLASSES);
     let mut data = vec![0.0; count * columns];
-    for k in 0..count {
-        data[k] = ((k % 52) * 8) as f32;
+    for (k, x) in data[..count].iter_mut().enumerate() {
+        *x = ((k % 52) * 8) as f32;
     }
     for (k, o) in objects.iter().enumerate() {
         let at = 97 * k + 5;

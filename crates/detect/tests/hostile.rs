@@ -1,5 +1,7 @@
 //! Networks and descriptions that are anything at all: errors, or boxes in the image; never a panic.
 
+#![allow(clippy::unwrap_used, reason = "helpers of tests fail as tests do")]
+
 #[path = "../fuzz/any_network.rs"]
 mod any_network;
 

@@ -1,5 +1,7 @@
 //! What is told from a network's inputs and outputs, what a description adds, and what is refused.
 
+#![allow(clippy::unwrap_used, reason = "helpers of tests fail as tests do")]
+
 mod fake_network;
 
 use fake_network::{FakeNetwork, fixed, port};
@@ -10,9 +12,12 @@ use pomona_detect::{
 };
 use std::sync::{Arc, Mutex};
 
+/// Shapes of the outputs; 0 is an axis that is left open.
+type Outputs<'a> = &'a [&'a [usize]];
+
 fn open(
     input: &[usize],
-    outputs: &[&[usize]],
+    outputs: Outputs<'_>,
     description: &str,
     options: &DetectorOptions,
 ) -> Result<OnnxDetector, String> {
@@ -44,7 +49,7 @@ fn open(
     OnnxDetector::new(Box::new(network), "m.onnx", &description, options).map_err(|e| e.to_string())
 }
 
-fn family(input: &[usize], outputs: &[&[usize]], description: &str) -> Result<Family, String> {
+fn family(input: &[usize], outputs: Outputs<'_>, description: &str) -> Result<Family, String> {
     open(input, outputs, description, &DetectorOptions::default()).map(|detector| detector.family())
 }
 
@@ -53,7 +58,7 @@ const OPEN: [usize; 4] = [0, 3, 0, 0];
 
 #[test]
 fn families_are_told_apart() {
-    let told: [(&[usize], &[&[usize]], Family); 19] = [
+    let told: [(&[usize], Outputs<'_>, Family); 19] = [
         (&SQUARE, &[&[1, 3549, 85]], Family::YoloX),
         (&SQUARE, &[&[0, 3549, 6]], Family::YoloX),
         (&[1, 3, 480, 640], &[&[1, 6300, 85]], Family::YoloX),
@@ -115,152 +120,135 @@ fn a_description_wins() {
     );
 }
 
-#[test]
-fn what_contradicts_itself_is_refused() {
-    let options = DetectorOptions::default;
-    let class = |class| DetectorOptions {
-        class: Some(class),
-        ..options()
-    };
-    let named = |name: &str| class(ClassChoice::Name(name.to_owned()));
-    let cases: [(&[usize], &[&[usize]], &str, DetectorOptions, &[&str]); 17] = [
-        (
-            &SQUARE,
-            &[&[1, 1000]],
-            "",
-            options(),
-            &["`output0` [1, 1000]", "no known family"],
-        ),
-        (&SQUARE, &[], "", options(), &["outputs", "family"]),
-        (
-            &SQUARE,
-            &[&[1, 3550, 85]],
-            "",
-            options(),
-            &["[1, 3550, 85] of a 416x416 input", "`family`"],
-        ),
-        (
-            &SQUARE,
-            &[&[1, 300, 6]],
-            "",
-            options(),
-            &["neither one nor three rows"],
-        ),
-        (
-            &OPEN,
-            &[&[0, 0, 0]],
-            "",
-            options(),
-            &["[?, ?, ?]", "leaves open"],
-        ),
-        (
-            &OPEN,
-            &[&[1, 3549, 85]],
-            "",
-            options(),
-            &["input's size is open", "`input_size`"],
-        ),
-        (
-            &SQUARE,
-            &[&[1, 84, 3549]],
-            "input_size = [640, 640]",
-            options(),
-            &["width is 416, not 640"],
-        ),
-        (
-            &SQUARE,
-            &[&[1, 84, 3549]],
-            "classes = ['apple']",
-            options(),
-            &["1 names", "80 classes"],
-        ),
-        (
-            &SQUARE,
-            &[&[1, 84, 3549]],
-            "class = 80",
-            options(),
-            &["class 80", "0 to 79"],
-        ),
-        (
-            &SQUARE,
-            &[&[1, 84, 3549]],
-            "",
-            named("aple"),
-            &["class `aple`", "`apple`"],
-        ),
-        (
-            &SQUARE,
-            &[&[1, 7, 3549]],
-            "",
-            named("apple"),
-            &["no names", "number"],
-        ),
-        (
-            &SQUARE,
-            &[&[1, 5, 3549]],
-            "",
-            class(ClassChoice::Number(1)),
-            &["class 1", "1 classes"],
-        ),
-        (
-            &[4, 3, 416, 416],
-            &[&[4, 5, 3549]],
-            "",
-            options(),
-            &["several images", "batch of 1"],
-        ),
-        (
-            &[1, 416, 416, 3],
-            &[&[1, 5, 3549]],
-            "",
-            options(),
-            &["channels come last"],
-        ),
-        (
-            &[1, 3, 416],
-            &[&[1, 5, 3549]],
-            "",
-            options(),
-            &["four axes"],
-        ),
-        (
-            &SQUARE,
-            &[&[1, 5, 3549]],
-            "",
-            DetectorOptions {
-                threshold: Some(f64::NAN),
-                ..options()
-            },
-            &["threshold = NaN"],
-        ),
-        (
-            &SQUARE,
-            &[&[1, 5, 3549]],
-            "",
-            DetectorOptions {
-                tiling: TilingChoice::Grid {
-                    columns: 0,
-                    rows: 1,
-                },
-                ..options()
-            },
-            &["tiling = 0x1"],
-        ),
-    ];
-    for (input, outputs, description, options, words) in cases {
-        let message = open(input, outputs, description, &options)
-            .map(|_| ())
-            .unwrap_err();
-        for word in words {
-            assert!(message.contains(word), "`{word}` is not in: {message}");
-        }
+/// No detector, and a message that says all of this.
+fn refused(input: &[usize], outputs: Outputs<'_>, description: &str, words: &[&str]) {
+    refused_with(
+        &DetectorOptions::default(),
+        input,
+        outputs,
+        description,
+        words,
+    );
+}
+
+fn refused_with(
+    options: &DetectorOptions,
+    input: &[usize],
+    outputs: Outputs<'_>,
+    description: &str,
+    words: &[&str],
+) {
+    let opened = open(input, outputs, description, options);
+    let message = opened.map(|_| ()).unwrap_err();
+    for word in words {
+        assert!(message.contains(word), "`{word}` is not in: {message}");
     }
+}
+
+#[test]
+fn outputs_of_no_family_are_refused() {
+    refused(
+        &SQUARE,
+        &[&[1, 1000]],
+        "",
+        &["`output0` [1, 1000]", "no known family"],
+    );
+    refused(&SQUARE, &[], "", &["m.onnx: outputs: ", "family"]);
+    refused(
+        &SQUARE,
+        &[&[1, 3550, 85]],
+        "",
+        &["[1, 3550, 85] of a 416x416 input", "`family`"],
+    );
+    refused(
+        &SQUARE,
+        &[&[1, 300, 6]],
+        "",
+        &["neither one nor three rows"],
+    );
+    refused(&OPEN, &[&[0, 0, 0]], "", &["[?, ?, ?]", "leaves open"]);
+    refused(
+        &OPEN,
+        &[&[1, 3549, 85]],
+        "",
+        &["input's size is open", "`input_size`"],
+    );
+}
+
+#[test]
+fn inputs_that_are_no_single_colour_image_are_refused() {
+    refused(
+        &[4, 3, 416, 416],
+        &[&[4, 5, 3549]],
+        "",
+        &["several images", "batch of 1"],
+    );
+    refused(
+        &[1, 416, 416, 3],
+        &[&[1, 5, 3549]],
+        "",
+        &["channels come last"],
+    );
+    refused(&[1, 3, 416], &[&[1, 5, 3549]], "", &["four axes"]);
+}
+
+#[test]
+fn descriptions_and_options_that_contradict_the_model_are_refused() {
+    let coco: Outputs<'_> = &[&[1, 84, 3549]];
+    let one: Outputs<'_> = &[&[1, 5, 3549]];
+    refused(
+        &SQUARE,
+        coco,
+        "input_size = [640, 640]",
+        &["width is 416, not 640"],
+    );
+    refused(
+        &SQUARE,
+        coco,
+        "classes = ['apple']",
+        &["1 names", "80 classes"],
+    );
+    refused(&SQUARE, coco, "class = 80", &["class 80", "0 to 79"]);
+    let choice = |class| DetectorOptions {
+        class: Some(class),
+        ..DetectorOptions::default()
+    };
+    let named = |name: &str| choice(ClassChoice::Name(name.to_owned()));
+    refused_with(
+        &named("aple"),
+        &SQUARE,
+        coco,
+        "",
+        &["class `aple`", "`apple`"],
+    );
+    refused_with(
+        &named("apple"),
+        &SQUARE,
+        &[&[1, 7, 3549]],
+        "",
+        &["no names", "number"],
+    );
+    let second = choice(ClassChoice::Number(1));
+    refused_with(&second, &SQUARE, one, "", &["class 1", "1 classes"]);
+    let threshold = DetectorOptions {
+        threshold: Some(f64::NAN),
+        ..DetectorOptions::default()
+    };
+    refused_with(&threshold, &SQUARE, one, "", &["threshold = NaN"]);
+    let tiling = DetectorOptions {
+        tiling: TilingChoice::Grid {
+            columns: 0,
+            rows: 1,
+        },
+        ..DetectorOptions::default()
+    };
+    refused_with(&tiling, &SQUARE, one, "", &["tiling = 0x1"]);
 }
 
 #[test]
 fn what_shows_only_while_running_is_refused_then() {
     let image = ColorImage::filled(416, 416, [0; 3]);
-    let cases: [(&[usize], &[&[usize]], &str, &[&str]); 6] = [
+    let cases: [(&[usize], Outputs<'_>, &str, &[&str]); 6] = [
         // The fake answers one row for an open axis.
         (
             &SQUARE,

@@ -1,5 +1,7 @@
 //! Large images: what is drawn is found where it is, once, whatever tile shows it, for any number of threads.
 
+#![allow(clippy::unwrap_used, reason = "helpers of tests fail as tests do")]
+
 mod fake_network;
 
 use fake_network::{FakeNetwork, fixed};
@@ -27,7 +29,13 @@ fn network() -> FakeNetwork {
             let mut data = vec![0.0; 5 * ROWS];
             data[0] = SIDE as f32;
             for (k, [x0, y0, x1, y1]) in boxes.into_iter().enumerate() {
-                let numbers = [(x0 + x1) / 2.0, (y0 + y1) / 2.0, x1 - x0, y1 - y0, 0.9];
+                let numbers = [
+                    f32::midpoint(x0, x1),
+                    f32::midpoint(y0, y1),
+                    x1 - x0,
+                    y1 - y0,
+                    0.9,
+                ];
                 for (column, x) in numbers.into_iter().enumerate() {
                     data[column * ROWS + k + 1] = x;
                 }

@@ -1,5 +1,7 @@
-//! `pomona evaluate`: methods against truth, and fitted radii against calipers.
+//! `pomona evaluate`: methods against truth, fitted radii against calipers, and detectors against labels.
 
+mod detection;
+mod detection_text;
 mod text;
 
 use crate::output_folder::{OutputFolder, PICKS, write_text};
@@ -8,11 +10,13 @@ use crate::terminal::{self, Terminal};
 use anyhow::bail;
 use clap::Args;
 use clap::builder::PossibleValuesParser;
-use pomona::{Config, Method, PickError, Picker, Record};
+use pomona::{
+    ApproachConfig, Config, Method, Outcome, PickError, Picker, Record, Robot, RobotFromCamera,
+};
 use pomona_cloud::Frame;
 use pomona_evaluate::{
-    CALIPER_SCHEMA, PickMethod, SCHEMA, Subject, apples_csv, caliper_page, evaluate,
-    measure_calipers, read_calipers, report_page,
+    CALIPER_SCHEMA, CalibrationNoise, PickMethod, RobotTrial, SCHEMA, Subject, apples_csv,
+    caliper_page, evaluate, evaluate_with_robot, measure_calipers, read_calipers, report_page,
 };
 use serde::de::IntoDeserializer;
 use serde::de::value::{Error, StrDeserializer};
@@ -26,15 +30,21 @@ Examples:
   pomona evaluate orchard@1000 --method paper --method robust --out out
                                                       other scenes: those of the seeds 1000, 1001, ...
   pomona evaluate orchard --count 50 --json --out out | jq '.results[].angle.error.mean'
+  pomona evaluate orchard --robot --out out           the gripper in the base's frame, after a simulated calibration
   pomona evaluate --calipers calipers.csv frames/a frames/b --out out
+  pomona evaluate --detection tiles --out out         the built-in model on images with labels
+  pomona evaluate --detection tiles --model built-in --model mine.onnx --boxes theirs.json --out out
+                                                      several in one run, compared in pairs
 
-Writes evaluation.json, apples.csv and report.html into DIR; with --calipers calipers.json and report.html.
+Writes evaluation.json, apples.csv and report.html into DIR; with --calipers calipers.json and report.html; with \
+--detection detection.json, report.html and a sheet of each detector's worst images, worst-N.png.
 A frame without truth can be evaluated with --calipers only: a CSV with the columns box_name and diameter_mm.";
 
 /// The results, by their names in the folder.
 const EVALUATION: &str = "evaluation.json";
 const CALIPERS: &str = "calipers.json";
 const APPLES: &str = "apples.csv";
+const DETECTION: &str = "detection.json";
 const REPORT: &str = "report.html";
 
 #[derive(Debug, Args)]
@@ -42,7 +52,7 @@ const REPORT: &str = "report.html";
 pub(crate) struct EvaluateArguments {
     /// Suites (see `pomona scenes --list`), SUITE@N for their scenes from the seed N on, frames with truth.json, or
     /// folders of such frames; with --calipers any frames.
-    #[arg(required = true, value_name = "SUITE|FRAME")]
+    #[arg(required_unless_present = "detection", value_name = "SUITE|FRAME")]
     subjects: Vec<String>,
     /// Where to write. Our own files are replaced.
     #[arg(short, long, value_name = "DIR")]
@@ -57,22 +67,45 @@ pub(crate) struct EvaluateArguments {
     /// repeated.
     #[arg(long = "variant", value_name = "FILE")]
     variants: Vec<PathBuf>,
-    /// Seed of the methods; scenes have seeds of their own.
+    /// Seed of the methods, or of the intervals with --detection; scenes have seeds of their own.
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u64,
-    /// Only so many frames of each suite, from the first.
+    /// Only so many frames of each suite, or images with --detection, from the first.
     #[arg(long, value_name = "N")]
     count: Option<usize>,
     /// Measured diameters (CSV), by box name: compares fitted radii with them, and the centres of each
     /// pair of frames with each other.
     #[arg(long, value_name = "FILE", conflicts_with = "count")]
     calipers: Option<PathBuf>,
+    /// Send a robot to the apples: for each frame a camera is mounted on it and calibrated from noisy samples, the picks
+    /// are planned, and the gripper is compared with the truth in the base's frame. With =FILE a robot's settings
+    /// (see `pomona config --robot`).
+    #[arg(long, value_name = "FILE", num_args = 0..=1, require_equals = true, conflicts_with = "calipers")]
+    #[allow(
+        clippy::option_option,
+        reason = "an option whose value may be left out, as clap has it"
+    )]
+    robot: Option<Option<PathBuf>>,
+    /// Noise of the calibration's samples in rotation, root mean square of the angle.
+    #[arg(long, value_name = "DEG", default_value_t = 0.2, requires = "robot")]
+    calibration_noise_deg: f64,
+    /// Noise of the calibration's samples in place, root mean square of the length.
+    #[arg(long, value_name = "MM", default_value_t = 1.0, requires = "robot")]
+    calibration_noise_mm: f64,
+    /// Samples of the calibration.
+    #[arg(long, value_name = "N", default_value_t = 15, requires = "robot")]
+    calibration_poses: usize,
     /// Print the result to standard output as JSON in place of the table.
     #[arg(long)]
     json: bool,
+    #[command(flatten)]
+    detection: detection::DetectionArguments,
 }
 
 pub(crate) fn run(arguments: &EvaluateArguments, terminal: Terminal) -> anyhow::Result<()> {
+    if let Some(labelled) = &arguments.detection.detection {
+        return detection::run(arguments, labelled, terminal);
+    }
     let pickers = pickers(arguments)?;
     let methods: Vec<&dyn PickMethod> = pickers.iter().map(|p| p as &dyn PickMethod).collect();
     match &arguments.calipers {
@@ -95,6 +128,32 @@ impl PickMethod for Named {
     fn answer(&self, frame: &Frame, seed: u64) -> Result<Record, PickError> {
         self.picker.answer(frame, seed)
     }
+
+    fn outcome(
+        &self,
+        frame: &Frame,
+        seed: u64,
+        robot_from_camera: &RobotFromCamera,
+    ) -> Result<Outcome, PickError> {
+        self.picker.outcome(frame, seed, robot_from_camera)
+    }
+}
+
+/// The robot that is asked for.
+fn trial(arguments: &EvaluateArguments) -> anyhow::Result<Option<RobotTrial>> {
+    let config = match &arguments.robot {
+        None => return Ok(None),
+        Some(None) => ApproachConfig::default(),
+        Some(Some(path)) => ApproachConfig::read(path)?,
+    };
+    Ok(Some(RobotTrial {
+        robot: Robot::new(config)?,
+        noise: CalibrationNoise {
+            poses: arguments.calibration_poses,
+            rotation_rad: arguments.calibration_noise_deg.to_radians(),
+            translation_m: arguments.calibration_noise_mm / 1e3,
+        },
+    }))
 }
 
 /// The methods that are asked for, and after them the variants.
@@ -150,6 +209,7 @@ fn against_truth(
     terminal: Terminal,
 ) -> anyhow::Result<()> {
     refuse_foreign(&arguments.out, EVALUATION, SCHEMA)?;
+    let trial = trial(arguments)?;
     let mut subjects: Vec<Subject> = Vec::new();
     for name in &arguments.subjects {
         for subject in Subject::named(name, arguments.count)? {
@@ -166,7 +226,11 @@ fn against_truth(
         }
     }
     let bar = progress::bar(subjects.len());
-    let evaluation = evaluate(&subjects, methods, arguments.seed, &|| bar.inc(1))?;
+    let (seed, done) = (arguments.seed, || bar.inc(1));
+    let evaluation = match &trial {
+        Some(trial) => evaluate_with_robot(&subjects, methods, seed, trial, &done)?,
+        None => evaluate(&subjects, methods, seed, &done)?,
+    };
     bar.finish_and_clear();
     let output = OutputFolder::new(&arguments.out)?;
     write_text(&output, EVALUATION, &json(&evaluation)?)?;
@@ -232,7 +296,8 @@ fn refuse_foreign(folder: &Path, main: &str, schema: &str) -> anyhow::Result<()>
     if head.is_some_and(|head| head.schema == schema) {
         return Ok(());
     }
-    for name in [EVALUATION, CALIPERS, APPLES, REPORT] {
+    let sheet = detection::sheet_name(1);
+    for name in [EVALUATION, CALIPERS, APPLES, DETECTION, REPORT, &sheet] {
         if folder.join(name).exists() {
             bail!(
                 "{}: would be replaced, and no {main} says that this program wrote it; name another folder by --out",
@@ -257,7 +322,12 @@ mod tests {
             seed: 0,
             count: Some(1),
             calipers: None,
+            robot: None,
+            calibration_noise_deg: 0.2,
+            calibration_noise_mm: 1.0,
+            calibration_poses: 15,
             json: false,
+            detection: detection::DetectionArguments::default(),
         }
     }
 
@@ -309,6 +379,26 @@ mod tests {
             refused.contains("picks") && refused.contains("--out"),
             "{refused}"
         );
+    }
+
+    #[test]
+    fn a_robot_is_measured_in_the_base_and_bad_noise_refused() {
+        let dir = tempfile::tempdir().unwrap();
+        let mut arguments = arguments(&["robust"]);
+        arguments.out = dir.path().join("out");
+        arguments.robot = Some(None);
+        let terminal = Terminal::new(clap::ColorChoice::Never);
+        run(&arguments, terminal).unwrap();
+        let text = std::fs::read_to_string(arguments.out.join(EVALUATION)).unwrap();
+        let evaluation: pomona_evaluate::Evaluation = serde_json::from_str(&text).unwrap();
+        let page = text::evaluation(&evaluation, terminal);
+        assert!(
+            page.contains("sphere center") && page.contains("NEES"),
+            "{page}"
+        );
+        arguments.calibration_noise_mm = -1.0;
+        let refused = run(&arguments, terminal).unwrap_err().to_string();
+        assert!(refused.contains("-0.001"), "{refused}");
     }
 
     #[test]

@@ -27,9 +27,14 @@
 //! - **Accuracy** is measured against truth, **repeatability** against the mean of a method's own
 //!   answers ([`Repeatability`], the paper's measure); they never share a name.
 //! - **[`Reliability`]** asks whether a method's confidences and standard deviations hold.
+//! - [`evaluate_with_robot`] also mounts a camera on a robot, calibrates it from noisy samples, and
+//!   measures the gripper in the base's frame: a [`BaseRow`] for each answer, a [`BaseResult`] with the error budget.
 //! - [`report_page`] and [`apples_csv`] are what `report.html` and `apples.csv` hold.
 //! - [`measure_calipers`] sets fitted radii beside measured diameters on real frames, and
 //!   aligns the apples of two frames of one tree.
+//! - [`evaluate_detections`] measures detectors, and boxes of other programs, on the labels of a
+//!   [`DetectionDataset`]: precision over recall ([`Curve`]), recall by size, what is missed and what is found
+//!   besides, with intervals and paired differences.
 //! - [`paper_figures`] holds every figure of the paper that ours is set beside.
 //!
 //! # Not here
@@ -42,8 +47,10 @@
 //! Gao, Zhou, Cao and Jiang 2022, "An Algorithm for Calculating Apple Picking Direction
 //! Based on 3D Vision", Agriculture 12(8), 1170, doi 10.3390/agriculture12081170.
 
+mod base;
 mod calipers;
 mod comparison;
+mod detection;
 mod error;
 mod grouping;
 mod lab;
@@ -60,11 +67,21 @@ mod statistics;
 mod subject;
 mod table_file;
 
+pub use base::{
+    BaseResult, BaseRow, BudgetTerm, CalibrationNoise, Coverage, DirectionTerms, Mounting, Planned,
+    PlannedRow, PositionTerms, RobotTrial, Term,
+};
 pub use calipers::{
     AlignedApple, Alignment, CALIPER_SCHEMA, Caliper, CaliperFrame, CaliperReport, CaliperResult,
     CaliperRow, measure_calipers, read_calipers,
 };
 pub use comparison::{Comparison, compare};
+pub use detection::{
+    AtThreshold, BestF1, COCO_SIZES, Curve, CurvePoint, DETECTION_SCHEMA, DatasetRecord,
+    DetectionDataset, DetectionDifference, DetectionEvaluation, DetectionResult, DetectionSettings,
+    DetectionSource, Estimate, FINE_SIZES, ImageOutcome, Label, LabelForm, LabelledImage, Outcome,
+    SizeClass, SizeRecall, WorstImage, evaluate_detections, match_detections, read_detections,
+};
 pub use error::EvaluateError;
 pub use grouping::{Difficulty, Group, Grouping};
 pub use lab::LabRow;
@@ -72,12 +89,12 @@ pub use matching::{SAME_APPLE_IOU, match_picks};
 pub use method::PickMethod;
 pub use reliability::{ConfidenceBin, RIGHT_RAD, Reliability, RiskPoint, SdCalibration, UNSURE};
 pub use repeatability::Repeatability;
-pub use report::{caliper_page, report_page};
+pub use report::{caliper_page, detection_page, report_page};
 pub use result::{AngleErrors, Evaluation, Refusals, SCHEMA, SuiteResult, Timing};
 pub use row::{
     AppleRow, NO_BOX, VISIBLE_APPLE_SHARE, VISIBLE_BRANCH_LENGTH_M, VISIBLE_BRANCH_PIXELS,
 };
-pub use run::evaluate;
+pub use run::{evaluate, evaluate_with_robot};
 pub use statistics::{Share, Spread, Summary};
 pub use subject::Subject;
 pub use table_file::apples_csv;

@@ -1,8 +1,10 @@
+mod base;
+
 use crate::terminal::{FAINT, HEADING, Terminal, one_line};
 use pomona_evaluate::{Alignment, CaliperReport, Evaluation, LabRow, Share, SuiteResult, Summary};
 
 /// What stands where nothing is known.
-const UNKNOWN: &str = "-";
+pub(super) const UNKNOWN: &str = "-";
 
 /// An evaluation as tables of text.
 pub(super) fn evaluation(evaluation: &Evaluation, terminal: Terminal) -> String {
@@ -80,7 +82,7 @@ pub(super) fn evaluation(evaluation: &Evaluation, terminal: Terminal) -> String 
         let title = format!("Tables 1-3 of the paper and {}, {}", of.suite, of.method);
         text += &("\n".to_owned() + &table(&title, &header, &rows, 1, terminal));
     }
-    text + &pairs(evaluation, terminal)
+    text + &pairs(evaluation, terminal) + &base::tables(evaluation, terminal)
 }
 
 /// The methods in pairs, apple by apple; nothing where there is one method.
@@ -248,7 +250,7 @@ fn lab(row: &LabRow) -> Vec<String> {
     ]
 }
 
-fn known<T>(value: Option<T>, form: impl Fn(T) -> String) -> String {
+pub(super) fn known<T>(value: Option<T>, form: impl Fn(T) -> String) -> String {
     value.map_or_else(|| UNKNOWN.to_owned(), form)
 }
 
@@ -273,7 +275,7 @@ fn with_interval(summary: &Summary, form: fn(f64) -> String) -> String {
 }
 
 /// A title, a header and rows; the first `words` columns are words and stand to the left.
-fn table(
+pub(super) fn table(
     title: &str,
     header: &[&str],
     rows: &[Vec<String>],

@@ -1,24 +1,31 @@
 use crate::{DetectError, ModelDescription, ModelSource};
 
-/// What stands for the built-in model in reports and messages.
+/// What the model that is part of the program is called.
 const NAME: &str = "built-in apple model";
-
-/// The network; `model/README.md` is its card, `training/` its recipe.
-static NETWORK: &[u8] = include_bytes!("../model/apple.onnx");
-
-/// How it is read.
-const DESCRIPTION: &str = include_str!("../model/apple.toml");
 
 /// The model that is part of the program, its name, and its description.
 ///
 /// # Errors
 ///
-/// None that a caller could meet: the description is tested with the program.
+/// [`DetectError::Model`] for a description that cannot be read; a test holds it to be fine.
 pub(crate) fn model() -> Result<(ModelSource, String, ModelDescription), DetectError> {
     let source = ModelSource::BuiltIn {
         name: NAME,
-        bytes: NETWORK,
+        bytes: include_bytes!("../model/apple.onnx"),
     };
-    let description = ModelDescription::parse(DESCRIPTION, NAME)?;
+    let description = ModelDescription::parse(include_str!("../model/apple.toml"), NAME)?;
     Ok((source, NAME.to_owned(), description))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Family;
+
+    #[test]
+    fn it_is_described() {
+        let (_, _, description) = model().unwrap();
+        assert_eq!(description.family, Some(Family::YoloV8));
+        assert!(description.licence.is_some() && description.source.is_some());
+    }
 }

@@ -140,31 +140,26 @@ impl Letterbox {
         let plane = self.input[0].checked_mul(self.input[1])?;
         let mut values = vec![0.0; plane.checked_mul(3)?];
         for (c, plane) in values.chunks_exact_mut(plane).enumerate() {
-            plane.fill(f32::from(preparation.fill).mul_add(gain[c], offset[c]));
+            plane.fill(f32::from(preparation.fill) * gain[c] + offset[c]);
         }
         let columns = Axis::new(window.width(), self.covered[0]);
         let rows = Axis::new(window.height(), self.covered[1]);
-        let mut line = vec![[0.0_f32; 3]; window.width()];
+        let mut line = vec![0.0; 3 * window.width()];
         for j in 0..self.covered[1] {
-            line.fill([0.0; 3]);
+            line.fill(0.0);
             for (v, weight) in rows.taps(j) {
                 let start = (window.y0 + v) * image.width + window.x0;
-                for (sum, pixel) in line.iter_mut().zip(&image.pixels[start..]) {
-                    for (sum, &value) in sum.iter_mut().zip(pixel) {
-                        *sum += weight * f32::from(value);
-                    }
+                let pixels = image.pixels[start..start + window.width()].as_flattened();
+                for (sum, &value) in line.iter_mut().zip(pixels) {
+                    *sum += weight * f32::from(value);
                 }
             }
             let start = (self.first[1] + j) * self.input[0] + self.first[0];
-            for i in 0..self.covered[0] {
-                let mut mixed = [0.0_f32; 3];
-                for (u, weight) in columns.taps(i) {
-                    for (mixed, value) in mixed.iter_mut().zip(line[u]) {
-                        *mixed += weight * value;
-                    }
-                }
-                for c in 0..3 {
-                    values[c * plane + start + i] = mixed[source[c]].mul_add(gain[c], offset[c]);
+            for c in 0..3 {
+                let row = &mut values[c * plane + start..][..self.covered[0]];
+                columns.mix(&line[source[c]..], 3, row);
+                for value in row {
+                    *value = *value * gain[c] + offset[c];
                 }
             }
         }

@@ -33,6 +33,21 @@ impl Axis {
         (first..).zip(self.weights[start..start + count].iter().copied())
     }
 
+    /// The new pixels from old ones that stand `step` numbers apart.
+    pub(crate) fn mix(&self, old: &[f32], step: usize, new: &mut [f32]) {
+        for (new, &(first, start, count)) in new.iter_mut().zip(&self.spans) {
+            let old = &old[first * step..];
+            *new = match self.weights[start..start + count] {
+                [only] => only * old[0],
+                [here, next] => here * old[0] + next * old[step],
+                ref weights => {
+                    let mixed = weights.iter().zip(old.iter().step_by(step));
+                    mixed.map(|(weight, old)| weight * old).sum()
+                }
+            };
+        }
+    }
+
     /// Between the two centres beside `centre`, which counts from the centre of the first pixel.
     fn interpolate(&mut self, centre: f64, old: usize) {
         let centre = centre.clamp(0.0, (old - 1) as f64);

@@ -62,6 +62,9 @@ pub(super) fn table(record: &DetectionsRecord, terminal: Terminal) -> String {
         cells.collect::<Vec<_>>().join("  ") + "\n"
     };
     let mut text = terminal.paint(HEADING, &what) + "\n";
+    for note in &record.detector.notes {
+        text += &(one_line(note) + "\n");
+    }
     text += &terminal.paint(FAINT, &line(header));
     for row in &rows {
         text += &line(row.each_ref().map(String::as_str));

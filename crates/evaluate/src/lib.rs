@@ -44,6 +44,7 @@
 
 mod calipers;
 mod comparison;
+mod depth_check;
 mod error;
 mod grouping;
 mod lab;
@@ -65,6 +66,10 @@ pub use calipers::{
     CaliperRow, measure_calipers, read_calipers,
 };
 pub use comparison::{Comparison, compare};
+pub use depth_check::{
+    DepthCheckResult, FixedDetector, MarkCounts, MergeCounts, SearchCounts,
+    measure_boxed_frame, measure_depth_checks,
+};
 pub use error::EvaluateError;
 pub use grouping::{Difficulty, Group, Grouping};
 pub use lab::LabRow;

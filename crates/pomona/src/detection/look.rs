@@ -1,0 +1,304 @@
+//! What depth says about one box.
+
+use super::DetectionConfig;
+use super::roundness::Roundness;
+use super::samples::{Samples, Tally};
+use crate::Config;
+use crate::robust::{Noise, Optics};
+use nalgebra::{Matrix4, Point3, Vector3, Vector4};
+use pomona_cloud::{DepthImage, PixelBox, PixelWindow};
+use pomona_fit::{
+    CenterSide, PlaneEstimator, Points, RadiusPrior, RadiusWindow, Refusing, SphereEstimator, SphereRefit,
+    sphere_weighted,
+};
+use pomona_geometry::{Plane, Sphere};
+use pomona_ransac::{FixedCount, InlierCount, Msac, Ransac};
+use rand_chacha::ChaCha8Rng;
+use serde::{Deserialize, Serialize};
+
+/// What depth says about a detector's box.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum Mark {
+    /// It shows a sphere of an apple's size, or too little to say that there is none.
+    Plausible,
+    /// Not looked at: the settings leave depth out.
+    Unchecked,
+    /// It holds too few readings to judge by. The method decides, as for any box.
+    NoDepth,
+    /// What it shows is farther off than apples are picked.
+    TooFar,
+    /// What is round in it is smaller than an apple.
+    TooSmall,
+    /// What is round in it, or the box itself at its depth, is larger than an apple.
+    TooLarge,
+    /// It shows a flat surface: a leaf, a wall, a picture of an apple.
+    Flat,
+    /// It shows a surface that bends in one direction only, as branches do, or no surface that holds together.
+    NotRound,
+    /// The apple that shows in it has a better box.
+    OfAnother,
+}
+
+impl Mark {
+    /// All of them.
+    pub const ALL: [Self; 9] = [
+        Self::Plausible,
+        Self::Unchecked,
+        Self::NoDepth,
+        Self::TooFar,
+        Self::TooSmall,
+        Self::TooLarge,
+        Self::Flat,
+        Self::NotRound,
+        Self::OfAnother,
+    ];
+
+    /// Its name in `picks.json`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Plausible => "plausible",
+            Self::Unchecked => "unchecked",
+            Self::NoDepth => "no_depth",
+            Self::TooFar => "too_far",
+            Self::TooSmall => "too_small",
+            Self::TooLarge => "too_large",
+            Self::Flat => "flat",
+            Self::NotRound => "not_round",
+            Self::OfAnother => "of_another",
+        }
+    }
+
+    /// Whether it says that the box holds no apple to be picked.
+    pub fn refuses(self) -> bool {
+        !matches!(self, Self::Plausible | Self::Unchecked | Self::NoDepth)
+    }
+}
+
+/// Spheres through four random readings that are tried.
+const DRAWS: u64 = 80;
+
+/// Planes through three random readings that are tried where a surface is not round.
+const PLANES: u64 = 30;
+
+/// Share of the readings on one plane that make a flat surface.
+const FLAT: f64 = 0.6;
+
+/// Standard deviation of an apple's surface about a sphere, metres: its flattening, mostly.
+const ROUND_SD_M: f64 = 0.0015;
+
+/// Standard deviations within which a reading is of a surface.
+const WITHIN: f64 = 2.5;
+
+/// Spheres outside of the bounds by so much are tried: they say that something is too small or too large.
+const BEYOND: f64 = 1.8;
+
+/// Share of the box's own apparent radius over the largest one that passes for a loose box.
+const LOOSE_BOX: f64 = 1.4;
+
+/// Most of a sphere's core that may be seen through: gaps of depth cameras, and boxes that shift.
+const SEEN_THROUGH: f64 = 0.35;
+
+/// Least share of the readings within the outline that must be its surface.
+const LEAST_SUPPORT: f64 = 0.15;
+
+/// What was seen in a box.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Look {
+    pub(super) mark: Mark,
+    /// The sphere that its depth shows.
+    pub(super) sphere: Option<Sphere>,
+    pub(super) tally: Tally,
+    pub(super) roundness: Option<Roundness>,
+}
+
+impl Look {
+    fn of(mark: Mark) -> Self {
+        Self {
+            mark,
+            sphere: None,
+            tally: Tally::default(),
+            roundness: None,
+        }
+    }
+}
+
+/// Looks at the boxes of one depth image.
+pub(super) struct Looker<'a> {
+    pub(super) depth: &'a DepthImage,
+    pub(super) optics: &'a Optics<'a>,
+    pub(super) config: &'a DetectionConfig,
+    noise: Noise,
+}
+
+impl<'a> Looker<'a> {
+    pub(super) fn new(depth: &'a DepthImage, optics: &'a Optics<'a>, config: &'a Config) -> Self {
+        Self {
+            depth,
+            optics,
+            config: &config.detection,
+            noise: config.robust.noise(),
+        }
+    }
+
+    /// Judges a box. `samples` is memory that serves one box after another; it holds the box's readings afterwards.
+    pub(super) fn look(
+        &self,
+        bounds: &PixelBox,
+        rng: &mut ChaCha8Rng,
+        samples: &mut Samples,
+    ) -> Look {
+        if !self.config.depth_check {
+            return Look::of(Mark::Unchecked);
+        }
+        let (width, height) = (self.depth.width, self.depth.height);
+        let b = bounds;
+        let window = PixelWindow::clamped(b.x_min, b.y_min, b.x_max, b.y_max, width, height);
+        samples.fill(self.depth, self.optics, window);
+        if samples.len() < self.config.min_readings {
+            return Look::of(Mark::NoDepth);
+        }
+        let front = samples.depth_at(0.1);
+        if front > self.config.range_max_m {
+            return Look::of(Mark::TooFar);
+        }
+        let Some(sphere) = self.sphere(samples, rng) else {
+            return Look::of(Mark::NotRound);
+        };
+        let z = sphere.center.z;
+        if z - sphere.radius > self.config.range_max_m {
+            return Look {
+                sphere: Some(sphere),
+                ..Look::of(Mark::TooFar)
+            };
+        }
+        let threshold = self.threshold(z);
+        let tally = samples.tally(&sphere, threshold);
+        let near = (0..samples.len()).map(|i| samples.point(i)).filter(|p| {
+            sphere.signed_distance(p).abs() <= 1.5 * threshold && p.z <= sphere.center.z
+        });
+        let roundness = Roundness::of(near, &sphere, self.sigma(z));
+        let apparent = 0.5 * b.width().min(b.height()) * self.optics.pixel_m(front);
+        let mark = self.judge(&sphere, apparent, &tally, roundness.as_ref(), samples, rng);
+        Look {
+            mark,
+            sphere: Some(sphere),
+            tally,
+            roundness,
+        }
+    }
+
+    fn judge(
+        &self,
+        sphere: &Sphere,
+        apparent: f64,
+        tally: &Tally,
+        roundness: Option<&Roundness>,
+        samples: &Samples,
+        rng: &mut ChaCha8Rng,
+    ) -> Mark {
+        let config = self.config;
+        let bent = |round: &Roundness| round.least + 2.0 * round.least_sd < config.least_roundness;
+        if roundness.is_some_and(bent) {
+            return if self.is_flat(sphere.center.z, samples, rng) {
+                Mark::Flat
+            } else {
+                Mark::NotRound
+            };
+        }
+        let sd = self.radius_sd(sphere, samples);
+        if sphere.radius + 2.0 * sd < config.radius_min_m {
+            return Mark::TooSmall;
+        }
+        if sphere.radius - 2.0 * sd > config.radius_max_m
+            || apparent > LOOSE_BOX * config.radius_max_m
+        {
+            return Mark::TooLarge;
+        }
+        if tally.seen_through() > SEEN_THROUGH || tally.support() < LEAST_SUPPORT {
+            return Mark::NotRound;
+        }
+        Mark::Plausible
+    }
+
+    /// Whether one plane holds most of the readings.
+    fn is_flat(&self, z: f64, samples: &Samples, rng: &mut ChaCha8Rng) -> bool {
+        let Ok(points) = Points::new(&samples.x, &samples.y, &samples.z) else {
+            return false;
+        };
+        let plane = Ransac::new(InlierCount::within(WITHIN * self.noise.sigma(z)))
+            .stopping(FixedCount::new(PLANES))
+            .run(&PlaneEstimator::new(points), rng);
+        plane.is_ok_and(|p| p.inliers.len() as f64 >= FLAT * samples.len() as f64)
+    }
+
+    /// Standard deviation of a reading about a sphere at depth `z`, metres.
+    fn sigma(&self, z: f64) -> f64 {
+        self.noise.sigma(z).hypot(ROUND_SD_M)
+    }
+
+    /// Distance within which a reading is of a sphere at depth `z`, metres.
+    pub(super) fn threshold(&self, z: f64) -> f64 {
+        WITHIN * self.sigma(z)
+    }
+
+    /// The sphere that most readings support, with its centre behind what is seen.
+    fn sphere(&self, samples: &mut Samples, rng: &mut ChaCha8Rng) -> Option<Sphere> {
+        let front = samples.depth_at(0.25);
+        let config = self.config;
+        let (least, most) = (config.radius_min_m / BEYOND, config.radius_max_m * BEYOND);
+        let behind = Plane::new(Point3::new(0.0, 0.0, front), Vector3::z())?;
+        let points = Points::new(&samples.x, &samples.y, &samples.z).ok()?;
+        let threshold = self.threshold(front);
+        let report = Ransac::new(Msac::within(threshold))
+            .constraint(Refusing(RadiusWindow::new(least, most).ok()?))
+            .constraint(Refusing(CenterSide::positive(behind)))
+            .stopping(FixedCount::new(DRAWS).max_draws(8 * DRAWS))
+            .min_inliers(8)
+            .run(
+                &SphereEstimator::new(points, SphereRefit::Geometric),
+                rng,
+            )
+            .ok()?;
+        let weight = self.sigma(front).powi(-2);
+        let prior = self.prior()?;
+        let mut sphere = report.model;
+        for _ in 0..2 {
+            let mut near = std::mem::take(&mut samples.near);
+            near.clear();
+            near.extend((0..samples.len()).filter(|&i| {
+                sphere.signed_distance(&samples.point(i)).abs() <= threshold
+            }));
+            let weighted = near.iter().map(|&i| (samples.point(i), weight));
+            let refined = sphere_weighted(weighted, &sphere, Some(prior));
+            samples.near = near;
+            sphere = refined.filter(|s| (least..=most).contains(&s.radius))?;
+        }
+        (sphere.center.z > front).then_some(sphere)
+    }
+
+    /// Apples are between the bounds, and a little beyond.
+    fn prior(&self) -> Option<RadiusPrior> {
+        let (least, most) = (self.config.radius_min_m, self.config.radius_max_m);
+        RadiusPrior::new(0.5 * (least + most), 0.5 * (most - least)).ok()
+    }
+
+    /// Standard deviation of the radius, metres, by the readings of the last refit and the prior.
+    fn radius_sd(&self, sphere: &Sphere, samples: &Samples) -> f64 {
+        let weight = self.sigma(sphere.center.z).powi(-2);
+        let mut information = Matrix4::zeros();
+        for &i in &samples.near {
+            let Some(n) = (samples.point(i) - sphere.center).try_normalize(1e-9) else {
+                continue;
+            };
+            let row = Vector4::new(n.x, n.y, n.z, 1.0);
+            information += weight * row * row.transpose();
+        }
+        let half = 0.5 * (self.config.radius_max_m - self.config.radius_min_m);
+        information[(3, 3)] += half.powi(-2);
+        information
+            .try_inverse()
+            .map_or(half, |covariance| covariance[(3, 3)].max(0.0).sqrt().min(half))
+    }
+}

@@ -77,13 +77,13 @@ impl Mark {
 }
 
 /// Spheres through four random readings that are tried.
-const DRAWS: u64 = 80;
+const DRAWS: u64 = 64;
 
 /// Planes through three random readings that are tried where a surface is not round.
 const PLANES: u64 = 30;
 
 /// Share of the readings on one plane that make a flat surface.
-const FLAT: f64 = 0.6;
+const FLAT: f64 = 0.7;
 
 /// Standard deviation of an apple's surface about a sphere, metres: its flattening, mostly.
 const ROUND_SD_M: f64 = 0.0015;
@@ -91,10 +91,16 @@ const ROUND_SD_M: f64 = 0.0015;
 /// Standard deviations within which a reading is of a surface.
 const WITHIN: f64 = 2.5;
 
-/// Spheres outside of the bounds by so much are tried: they say that something is too small or too large.
-const BEYOND: f64 = 1.8;
+/// Spheres that are looked at one after the other before a box is given up.
+const ATTEMPTS: usize = 3;
 
-/// Share of the box's own apparent radius over the largest one that passes for a loose box.
+/// Share of its outline on which an apple must show that is not the first thing seen in its box.
+const LEAST_SHOWN: f64 = 0.2;
+
+/// Standard deviation of a radius that is held at a bound, metres.
+const HELD_M: f64 = 0.0002;
+
+/// By how much boxes may be larger than what they hold.
 const LOOSE_BOX: f64 = 1.4;
 
 /// Most of a sphere's core that may be seen through: gaps of depth cameras, and boxes that shift.
@@ -163,24 +169,79 @@ impl<'a> Looker<'a> {
         if front > self.config.range_max_m {
             return Look::of(Mark::TooFar);
         }
-        let Some(sphere) = self.sphere(samples, rng) else {
-            return Look::of(Mark::NotRound);
-        };
-        let z = sphere.center.z;
-        if z - sphere.radius > self.config.range_max_m {
-            return Look {
-                sphere: Some(sphere),
-                ..Look::of(Mark::TooFar)
-            };
+        let metres = self.optics.pixel_m(front);
+        let (less, more) = (b.width().min(b.height()), b.width().max(b.height()));
+        if 0.5 * less * metres > LOOSE_BOX * self.config.radius_max_m {
+            return Look::of(Mark::TooLarge);
         }
+        if 0.5 * more * metres < LOOSE_BOX * self.config.radius_min_m
+            && let Some(small) = self.too_small(samples, rng)
+        {
+            return small;
+        }
+        self.apple(samples, rng)
+    }
+
+    /// The first of a few spheres that could be an apple, or why none could. Whatever was taken for
+    /// one and is none, a leaf before the apple, is left out when the next is looked for.
+    fn apple(&self, samples: &mut Samples, rng: &mut ChaCha8Rng) -> Look {
+        let bounds = (self.config.radius_min_m, self.config.radius_max_m);
+        samples.all_left();
+        let mut first = Look::of(Mark::NotRound);
+        for attempt in 0..ATTEMPTS {
+            let Some(sphere) = self.sphere(bounds, samples, rng) else {
+                break;
+            };
+            let look = self.judge(sphere, samples);
+            match look.mark {
+                Mark::TooFar => return look,
+                Mark::Plausible if attempt == 0 || self.convinces(&look) => return look,
+                _ => {}
+            }
+            if attempt == 0 {
+                first = look;
+                if self.is_flat(sphere.center.z, samples, rng) {
+                    break;
+                }
+            }
+            samples.leave_out(&sphere, self.threshold(sphere.center.z));
+        }
+        let z = first.sphere.map_or(samples.depth_at(0.5), |s| s.center.z);
+        first.mark = if self.is_flat(z, samples, rng) {
+            Mark::Flat
+        } else {
+            Mark::NotRound
+        };
+        first
+    }
+
+    /// Whether what is left of a box, less what was no apple, shows one beyond doubt.
+    fn convinces(&self, look: &Look) -> bool {
+        let round = look.roundness.as_ref();
+        round.is_some_and(|r| r.least >= self.config.least_roundness)
+            && look.tally.coverage() >= LEAST_SHOWN
+    }
+
+    /// What a sphere within the bounds looks like.
+    fn judge(&self, sphere: Sphere, samples: &Samples) -> Look {
+        let z = sphere.center.z;
         let threshold = self.threshold(z);
         let tally = samples.tally(&sphere, threshold);
         let near = (0..samples.len()).map(|i| samples.point(i)).filter(|p| {
             sphere.signed_distance(p).abs() <= 1.5 * threshold && p.z <= sphere.center.z
         });
         let roundness = Roundness::of(near, &sphere, self.sigma(z));
-        let apparent = 0.5 * b.width().min(b.height()) * self.optics.pixel_m(front);
-        let mark = self.judge(&sphere, apparent, &tally, roundness.as_ref(), samples, rng);
+        let bent = |r: &Roundness| r.least + 2.0 * r.least_sd < self.config.least_roundness;
+        let mark = if z - sphere.radius > self.config.range_max_m {
+            Mark::TooFar
+        } else if roundness.as_ref().is_some_and(bent)
+            || tally.seen_through() > SEEN_THROUGH
+            || tally.support() < LEAST_SUPPORT
+        {
+            Mark::NotRound
+        } else {
+            Mark::Plausible
+        };
         Look {
             mark,
             sphere: Some(sphere),
@@ -189,37 +250,17 @@ impl<'a> Looker<'a> {
         }
     }
 
-    fn judge(
-        &self,
-        sphere: &Sphere,
-        apparent: f64,
-        tally: &Tally,
-        roundness: Option<&Roundness>,
-        samples: &Samples,
-        rng: &mut ChaCha8Rng,
-    ) -> Mark {
-        let config = self.config;
-        let bent = |round: &Roundness| round.least + 2.0 * round.least_sd < config.least_roundness;
-        if roundness.is_some_and(bent) {
-            return if self.is_flat(sphere.center.z, samples, rng) {
-                Mark::Flat
-            } else {
-                Mark::NotRound
-            };
-        }
-        let sd = self.radius_sd(sphere, samples);
-        if sphere.radius + 2.0 * sd < config.radius_min_m {
-            return Mark::TooSmall;
-        }
-        if sphere.radius - 2.0 * sd > config.radius_max_m
-            || apparent > LOOSE_BOX * config.radius_max_m
-        {
-            return Mark::TooLarge;
-        }
-        if tally.seen_through() > SEEN_THROUGH || tally.support() < LEAST_SUPPORT {
-            return Mark::NotRound;
-        }
-        Mark::Plausible
+    /// For a box no larger than the smallest apples: whether all of it is something round that is smaller still.
+    fn too_small(&self, samples: &mut Samples, rng: &mut ChaCha8Rng) -> Option<Look> {
+        let least = self.config.radius_min_m;
+        samples.all_left();
+        let sphere = self.sphere((least / 4.0, self.config.radius_max_m), samples, rng)?;
+        let look = self.judge(sphere, samples);
+        let small = sphere.radius + 2.0 * self.radius_sd(&sphere, samples) < least;
+        (small && look.mark == Mark::Plausible).then_some(Look {
+            mark: Mark::TooSmall,
+            ..look
+        })
     }
 
     /// Whether one plane holds most of the readings.
@@ -243,45 +284,51 @@ impl<'a> Looker<'a> {
         WITHIN * self.sigma(z)
     }
 
-    /// The sphere that most readings support, with its centre behind what is seen.
-    fn sphere(&self, samples: &mut Samples, rng: &mut ChaCha8Rng) -> Option<Sphere> {
-        let front = samples.depth_at(0.25);
-        let config = self.config;
-        let (least, most) = (config.radius_min_m / BEYOND, config.radius_max_m * BEYOND);
+    /// The sphere with a radius within `bounds` that most of the readings left support, with its centre behind what is
+    /// seen.
+    fn sphere(
+        &self,
+        bounds: (f64, f64),
+        samples: &mut Samples,
+        rng: &mut ChaCha8Rng,
+    ) -> Option<Sphere> {
+        if samples.left_z.len() < self.config.min_readings {
+            return None;
+        }
+        let (least, most) = bounds;
+        let front = samples.left_depth_at(0.25);
         let behind = Plane::new(Point3::new(0.0, 0.0, front), Vector3::z())?;
-        let points = Points::new(&samples.x, &samples.y, &samples.z).ok()?;
+        let points = Points::new(&samples.left_x, &samples.left_y, &samples.left_z).ok()?;
         let threshold = self.threshold(front);
         let report = Ransac::new(Msac::within(threshold))
             .constraint(Refusing(RadiusWindow::new(least, most).ok()?))
             .constraint(Refusing(CenterSide::positive(behind)))
-            .stopping(FixedCount::new(DRAWS).max_draws(8 * DRAWS))
+            .stopping(FixedCount::new(DRAWS).max_draws(4 * DRAWS))
             .min_inliers(8)
-            .run(
-                &SphereEstimator::new(points, SphereRefit::Geometric),
-                rng,
-            )
+            .run(&SphereEstimator::new(points, SphereRefit::Geometric), rng)
             .ok()?;
         let weight = self.sigma(front).powi(-2);
-        let prior = self.prior()?;
+        let wide = RadiusPrior::new(0.5 * (least + most), 0.5 * (most - least)).ok()?;
         let mut sphere = report.model;
         for _ in 0..2 {
             let mut near = std::mem::take(&mut samples.near);
             near.clear();
-            near.extend((0..samples.len()).filter(|&i| {
-                sphere.signed_distance(&samples.point(i)).abs() <= threshold
-            }));
+            let of_it = |i: &usize| {
+                sphere.signed_distance(&samples.point(*i)).abs() <= threshold
+            };
+            near.extend((0..samples.len()).filter(of_it));
             let weighted = near.iter().map(|&i| (samples.point(i), weight));
-            let refined = sphere_weighted(weighted, &sphere, Some(prior));
+            let mut refined = sphere_weighted(weighted.clone(), &sphere, Some(wide));
+            if let Some(beyond) = refined.filter(|s| !(least..=most).contains(&s.radius)) {
+                // Little of the surface leaves the radius open: the nearest one within the bounds will do.
+                let held = RadiusPrior::new(beyond.radius.clamp(least, most), HELD_M).ok()?;
+                refined = sphere_weighted(weighted, &sphere, Some(held));
+            }
             samples.near = near;
-            sphere = refined.filter(|s| (least..=most).contains(&s.radius))?;
+            sphere = refined?;
         }
-        (sphere.center.z > front).then_some(sphere)
-    }
-
-    /// Apples are between the bounds, and a little beyond.
-    fn prior(&self) -> Option<RadiusPrior> {
-        let (least, most) = (self.config.radius_min_m, self.config.radius_max_m);
-        RadiusPrior::new(0.5 * (least + most), 0.5 * (most - least)).ok()
+        let within = (0.95 * least..=1.05 * most).contains(&sphere.radius);
+        (within && sphere.center.z > front).then_some(sphere)
     }
 
     /// Standard deviation of the radius, metres, by the readings of the last refit and the prior.

@@ -19,9 +19,13 @@ pub(super) struct Samples {
     pub(super) pixel: Vec<u32>,
     /// x/z and y/z of the places without a reading.
     pub(super) blind: Vec<(f32, f32)>,
-    /// For passing work.
-    pub(super) sorted: Vec<f32>,
+    /// The points that no sphere has taken yet.
+    pub(super) left_x: Vec<f32>,
+    pub(super) left_y: Vec<f32>,
+    pub(super) left_z: Vec<f32>,
+    /// The points that the last sphere was fitted to.
     pub(super) near: Vec<usize>,
+    sorted: Vec<f32>,
 }
 
 impl Samples {
@@ -67,12 +71,37 @@ impl Samples {
         )
     }
 
+    /// Leaves all points to be taken.
+    pub(super) fn all_left(&mut self) {
+        self.left_x.clone_from(&self.x);
+        self.left_y.clone_from(&self.y);
+        self.left_z.clone_from(&self.z);
+    }
+
+    /// Leaves those that lie within `threshold` metres of `sphere` no longer.
+    pub(super) fn leave_out(&mut self, sphere: &Sphere, threshold: f64) {
+        let mut kept = 0;
+        for i in 0..self.left_z.len() {
+            let (x, y, z) = (self.left_x[i], self.left_y[i], self.left_z[i]);
+            let p = Point3::new(x, y, z).cast();
+            if sphere.signed_distance(&p).abs() > threshold {
+                (self.left_x[kept], self.left_y[kept], self.left_z[kept]) = (x, y, z);
+                kept += 1;
+            }
+        }
+        self.left_x.truncate(kept);
+        self.left_y.truncate(kept);
+        self.left_z.truncate(kept);
+    }
+
     /// The depth below which `share` of the readings lie, metres; there must be readings.
     pub(super) fn depth_at(&mut self, share: f64) -> f64 {
-        self.sorted.clone_from(&self.z);
-        let at = (share * (self.sorted.len() - 1) as f64) as usize;
-        let (_, depth, _) = self.sorted.select_nth_unstable_by(at, f32::total_cmp);
-        f64::from(*depth)
+        quantile(&self.z, share, &mut self.sorted)
+    }
+
+    /// The same of the points that are left.
+    pub(super) fn left_depth_at(&mut self, share: f64) -> f64 {
+        quantile(&self.left_z, share, &mut self.sorted)
     }
 
     /// What the samples within the outline of `sphere` show, a reading within `threshold` metres of it being of it.
@@ -105,6 +134,14 @@ impl Samples {
         tally.blind = self.blind.iter().filter(hidden).count();
         tally
     }
+}
+
+fn quantile(values: &[f32], share: f64, sorted: &mut Vec<f32>) -> f64 {
+    sorted.clear();
+    sorted.extend_from_slice(values);
+    let at = (share * (sorted.len() - 1) as f64) as usize;
+    let (_, depth, _) = sorted.select_nth_unstable_by(at, f32::total_cmp);
+    f64::from(*depth)
 }
 
 /// A ray that passes nearer than this many radii to the centre must meet the apple, noise or not.

@@ -106,6 +106,18 @@ const LOOSE_BOX: f64 = 1.4;
 /// Most of a sphere's core that may be seen through: gaps of depth cameras, and boxes that shift.
 const SEEN_THROUGH: f64 = 0.35;
 
+/// Least share of a sphere's outline in the box on which its surface must show.
+const LEAST_COVERAGE: f64 = 0.15;
+
+/// The same of a sphere as large as the bounds allow.
+const STRETCHED_SHOWN: f64 = 0.4;
+
+/// Most of a box that may lie beyond the outline of its sphere on one side.
+const BEYOND: f64 = 0.3;
+
+/// Standard deviations by which a surface may be flatter than it looks.
+const UNSURE: f64 = 2.0;
+
 /// Least share of the readings within the outline that must be its surface.
 const LEAST_SUPPORT: f64 = 0.15;
 
@@ -175,24 +187,29 @@ impl<'a> Looker<'a> {
             return Look::of(Mark::TooLarge);
         }
         if 0.5 * more * metres < LOOSE_BOX * self.config.radius_min_m
-            && let Some(small) = self.too_small(samples, rng)
+            && let Some(small) = self.too_small(bounds, samples, rng)
         {
             return small;
         }
-        self.apple(samples, rng)
+        self.apple(bounds, samples, rng)
     }
 
     /// The first of a few spheres that could be an apple, or why none could. Whatever was taken for
     /// one and is none, a leaf before the apple, is left out when the next is looked for.
-    fn apple(&self, samples: &mut Samples, rng: &mut ChaCha8Rng) -> Look {
-        let bounds = (self.config.radius_min_m, self.config.radius_max_m);
+    fn apple(
+        &self,
+        bounds: &PixelBox,
+        samples: &mut Samples,
+        rng: &mut ChaCha8Rng,
+    ) -> Look {
+        let radii = (self.config.radius_min_m, self.config.radius_max_m);
         samples.all_left();
         let mut first = Look::of(Mark::NotRound);
         for attempt in 0..ATTEMPTS {
-            let Some(sphere) = self.sphere(bounds, samples, rng) else {
+            let Some(sphere) = self.sphere(radii, samples, rng) else {
                 break;
             };
-            let look = self.judge(sphere, samples);
+            let look = self.judge(bounds, sphere, samples);
             match look.mark {
                 Mark::TooFar => return look,
                 Mark::Plausible if attempt == 0 || self.convinces(&look) => return look,
@@ -223,7 +240,7 @@ impl<'a> Looker<'a> {
     }
 
     /// What a sphere within the bounds looks like.
-    fn judge(&self, sphere: Sphere, samples: &Samples) -> Look {
+    fn judge(&self, bounds: &PixelBox, sphere: Sphere, samples: &Samples) -> Look {
         let z = sphere.center.z;
         let threshold = self.threshold(z);
         let tally = samples.tally(&sphere, threshold);
@@ -231,12 +248,18 @@ impl<'a> Looker<'a> {
             sphere.signed_distance(p).abs() <= 1.5 * threshold && p.z <= sphere.center.z
         });
         let roundness = Roundness::of(near, &sphere, self.sigma(z));
-        let bent = |r: &Roundness| r.least + 2.0 * r.least_sd < self.config.least_roundness;
+        let bent = |r: &Roundness| r.least + UNSURE * r.least_sd < self.config.least_roundness;
+        // A surface that would be flatter if it could, and shows little.
+        let stretched =
+            sphere.radius > 0.98 * self.config.radius_max_m && tally.coverage() < STRETCHED_SHOWN;
         let mark = if z - sphere.radius > self.config.range_max_m {
             Mark::TooFar
         } else if roundness.as_ref().is_some_and(bent)
+            || stretched
             || tally.seen_through() > SEEN_THROUGH
             || tally.support() < LEAST_SUPPORT
+            || tally.coverage() < LEAST_COVERAGE
+            || self.beyond(bounds, &sphere) > BEYOND
         {
             Mark::NotRound
         } else {
@@ -251,11 +274,16 @@ impl<'a> Looker<'a> {
     }
 
     /// For a box no larger than the smallest apples: whether all of it is something round that is smaller still.
-    fn too_small(&self, samples: &mut Samples, rng: &mut ChaCha8Rng) -> Option<Look> {
+    fn too_small(
+        &self,
+        bounds: &PixelBox,
+        samples: &mut Samples,
+        rng: &mut ChaCha8Rng,
+    ) -> Option<Look> {
         let least = self.config.radius_min_m;
         samples.all_left();
         let sphere = self.sphere((least / 4.0, self.config.radius_max_m), samples, rng)?;
-        let look = self.judge(sphere, samples);
+        let look = self.judge(bounds, sphere, samples);
         let small = sphere.radius + 2.0 * self.radius_sd(&sphere, samples) < least;
         (small && look.mark == Mark::Plausible).then_some(Look {
             mark: Mark::TooSmall,
@@ -272,6 +300,23 @@ impl<'a> Looker<'a> {
             .stopping(FixedCount::new(PLANES))
             .run(&PlaneEstimator::new(points), rng);
         plane.is_ok_and(|p| p.inliers.len() as f64 >= FLAT * samples.len() as f64)
+    }
+
+    /// How far the box reaches beyond the sphere's outline at its worst edge, as a share of its longer side.
+    fn beyond(&self, bounds: &PixelBox, sphere: &Sphere) -> f64 {
+        let Some((u, v)) = self.optics.project(&sphere.center) else {
+            return f64::INFINITY;
+        };
+        let half = sphere.radius / self.optics.pixel_m(sphere.center.z);
+        let b = bounds;
+        let edges = [
+            u - half - b.x_min,
+            v - half - b.y_min,
+            b.x_max - u - half,
+            b.y_max - v - half,
+        ];
+        let most = edges.into_iter().fold(0.0, f64::max);
+        most / b.width().max(b.height())
     }
 
     /// Standard deviation of a reading about a sphere at depth `z`, metres.

@@ -1,5 +1,5 @@
 use crate::terminal::Terminal;
-use crate::{calibrate, completions, config, convert, evaluate, inspect, pick, scenes};
+use crate::{calibrate, completions, config, convert, detect, evaluate, inspect, pick, scenes};
 use clap::{ArgAction, ColorChoice, Parser, Subcommand, value_parser};
 
 const EXAMPLES: &str = "\
@@ -7,6 +7,7 @@ Examples:
   pomona scenes demo --out scenes                 write a synthetic frame
   pomona pick scenes/orchard-demo --out out       how to pick its apples
   pomona pick frames/* --out out --json           several frames, as JSON
+  pomona detect photos --out boxes                the apples in colour images
   pomona inspect frames/a out/picks.json          what files hold
   pomona convert frames/a cloud.ply               a frame as a point cloud
 
@@ -36,9 +37,11 @@ pub(crate) struct Arguments {
 enum Command {
     /// Find the picking direction of each apple.
     Pick(pick::PickArguments),
+    /// Find the apples in colour images.
+    Detect(detect::DetectArguments),
     /// Write synthetic frames with the truth beside them.
     Scenes(scenes::ScenesArguments),
-    /// Measure methods against truth, or fitted radii against calipers.
+    /// Measure methods against truth, fitted radii against calipers, or detectors against labels.
     Evaluate(evaluate::EvaluateArguments),
     /// Find where the camera is, from samples of points or poses.
     Calibrate(calibrate::CalibrateArguments),
@@ -63,6 +66,7 @@ impl Arguments {
         }
         match &self.command {
             Command::Pick(arguments) => pick::run(arguments, terminal),
+            Command::Detect(arguments) => detect::run(arguments, terminal),
             Command::Scenes(arguments) => scenes::run(arguments),
             Command::Evaluate(arguments) => evaluate::run(arguments, terminal),
             Command::Calibrate(arguments) => calibrate::run(arguments, terminal),

@@ -27,7 +27,7 @@ pub(crate) struct DetectorArguments {
 }
 
 /// How detectors run, whichever they are.
-#[derive(Clone, Debug, Args)]
+#[derive(Clone, Debug, Default, Args)]
 pub(crate) struct DetectorSettings {
     /// What runs the model: auto (ONNX Runtime where it is found, else the embedded one), onnxruntime, embedded, or
     /// the path of an ONNX Runtime library.

@@ -1,5 +1,7 @@
-//! `pomona evaluate`: methods against truth, and fitted radii against calipers.
+//! `pomona evaluate`: methods against truth, fitted radii against calipers, and detectors against labels.
 
+mod detection;
+mod detection_text;
 mod text;
 
 use crate::output_folder::{OutputFolder, PICKS, write_text};
@@ -27,14 +29,19 @@ Examples:
                                                       other scenes: those of the seeds 1000, 1001, ...
   pomona evaluate orchard --count 50 --json --out out | jq '.results[].angle.error.mean'
   pomona evaluate --calipers calipers.csv frames/a frames/b --out out
+  pomona evaluate --detection tiles --out out         the built-in model on images with labels
+  pomona evaluate --detection tiles --model built-in --model mine.onnx --boxes theirs.json --out out
+                                                      several in one run, compared in pairs
 
-Writes evaluation.json, apples.csv and report.html into DIR; with --calipers calipers.json and report.html.
+Writes evaluation.json, apples.csv and report.html into DIR; with --calipers calipers.json and report.html; with \
+--detection detection.json, report.html and a sheet of each detector's worst images, worst-N.png.
 A frame without truth can be evaluated with --calipers only: a CSV with the columns box_name and diameter_mm.";
 
 /// The results, by their names in the folder.
 const EVALUATION: &str = "evaluation.json";
 const CALIPERS: &str = "calipers.json";
 const APPLES: &str = "apples.csv";
+const DETECTION: &str = "detection.json";
 const REPORT: &str = "report.html";
 
 #[derive(Debug, Args)]
@@ -42,7 +49,7 @@ const REPORT: &str = "report.html";
 pub(crate) struct EvaluateArguments {
     /// Suites (see `pomona scenes --list`), SUITE@N for their scenes from the seed N on, frames with truth.json, or
     /// folders of such frames; with --calipers any frames.
-    #[arg(required = true, value_name = "SUITE|FRAME")]
+    #[arg(required_unless_present = "detection", value_name = "SUITE|FRAME")]
     subjects: Vec<String>,
     /// Where to write. Our own files are replaced.
     #[arg(short, long, value_name = "DIR")]
@@ -57,10 +64,10 @@ pub(crate) struct EvaluateArguments {
     /// repeated.
     #[arg(long = "variant", value_name = "FILE")]
     variants: Vec<PathBuf>,
-    /// Seed of the methods; scenes have seeds of their own.
+    /// Seed of the methods, or of the intervals with --detection; scenes have seeds of their own.
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u64,
-    /// Only so many frames of each suite, from the first.
+    /// Only so many frames of each suite, or images with --detection, from the first.
     #[arg(long, value_name = "N")]
     count: Option<usize>,
     /// Measured diameters (CSV), by box name: compares fitted radii with them, and the centres of each
@@ -70,9 +77,14 @@ pub(crate) struct EvaluateArguments {
     /// Print the result to standard output as JSON in place of the table.
     #[arg(long)]
     json: bool,
+    #[command(flatten)]
+    detection: detection::DetectionArguments,
 }
 
 pub(crate) fn run(arguments: &EvaluateArguments, terminal: Terminal) -> anyhow::Result<()> {
+    if let Some(labelled) = &arguments.detection.detection {
+        return detection::run(arguments, labelled, terminal);
+    }
     let pickers = pickers(arguments)?;
     let methods: Vec<&dyn PickMethod> = pickers.iter().map(|p| p as &dyn PickMethod).collect();
     match &arguments.calipers {
@@ -232,7 +244,8 @@ fn refuse_foreign(folder: &Path, main: &str, schema: &str) -> anyhow::Result<()>
     if head.is_some_and(|head| head.schema == schema) {
         return Ok(());
     }
-    for name in [EVALUATION, CALIPERS, APPLES, REPORT] {
+    let sheet = detection::sheet_name(1);
+    for name in [EVALUATION, CALIPERS, APPLES, DETECTION, REPORT, &sheet] {
         if folder.join(name).exists() {
             bail!(
                 "{}: would be replaced, and no {main} says that this program wrote it; name another folder by --out",
@@ -258,6 +271,7 @@ mod tests {
             count: Some(1),
             calipers: None,
             json: false,
+            detection: detection::DetectionArguments::default(),
         }
     }
 

@@ -8,10 +8,11 @@ mod calibrate;
 mod completions;
 mod config;
 mod convert;
-#[allow(dead_code, reason = "its commands follow")]
+mod detect;
 mod detector;
 mod evaluate;
 mod fuse;
+mod image_paths;
 mod inspect;
 mod output_folder;
 mod pick;

@@ -122,13 +122,24 @@ impl OutputFolder {
     }
 
     /// Puts the files in place. Ours of an earlier run that this one did not write are removed.
-    pub(crate) fn publish(mut self) -> anyhow::Result<()> {
-        self.put_in_place().map_err(|e| self.refused(&e))?;
+    pub(crate) fn publish(self) -> anyhow::Result<()> {
+        self.publish_replacing(PICKS, is_ours)
+    }
+
+    /// Puts the files in place, `main` last. Files of an earlier run, which `is_earlier` knows by their names, are
+    /// removed where this one did not write them.
+    pub(crate) fn publish_replacing(
+        mut self,
+        main: &str,
+        is_earlier: impl Fn(&str) -> bool,
+    ) -> anyhow::Result<()> {
+        self.put_in_place(main, is_earlier)
+            .map_err(|e| self.refused(&e))?;
         self.published = true;
         Ok(())
     }
 
-    fn put_in_place(&self) -> std::io::Result<()> {
+    fn put_in_place(&self, main: &str, is_earlier: impl Fn(&str) -> bool) -> std::io::Result<()> {
         if !self.folder.exists() {
             return fs::rename(&self.part, &self.folder);
         }
@@ -140,13 +151,13 @@ impl OutputFolder {
         let written = names(&self.part)?;
         for stale in names(&self.folder)?
             .iter()
-            .filter(|n| is_ours(n) && !written.contains(n))
+            .filter(|n| is_earlier(n) && !written.contains(n))
         {
             fs::remove_file(self.folder.join(stale))?;
         }
         // The answers last: whoever waits for them finds the rest in place.
-        let (picks, rest): (Vec<_>, Vec<_>) = written.iter().partition(|name| *name == PICKS);
-        for name in rest.into_iter().chain(picks) {
+        let (last, rest): (Vec<_>, Vec<_>) = written.iter().partition(|name| *name == main);
+        for name in rest.into_iter().chain(last) {
             fs::rename(self.part.join(name), self.folder.join(name))?;
         }
         fs::remove_dir(&self.part)

@@ -1,8 +1,14 @@
 mod coco;
+mod coco_dataset;
+mod labelled;
 mod pixel_box;
 mod voc;
 mod yolo;
 
+pub use coco_dataset::{
+    CocoCategory, CocoDataset, CocoImage, CocoResult, ImageKey, read_coco_results,
+};
+pub use labelled::{LabelKind, LabelledBox};
 pub use pixel_box::{BoxError, PixelBox};
 
 use crate::error::Fault;
@@ -37,10 +43,29 @@ pub fn read_boxes(
     height: usize,
 ) -> Result<Vec<PixelBox>, CloudError> {
     let path = path.as_ref();
-    let bytes = file::read_bytes(path)?;
-    let boxes = parse(&bytes, width, height).map_err(|fault| fault.at(path))?;
+    let labels = read_labels(path, width, height)?;
+    let boxes: Vec<PixelBox> = labels.into_iter().map(|label| label.bounds).collect();
     validate_all(path, &boxes, width, height)?;
     Ok(boxes)
+}
+
+/// Reads the boxes of a `width` × `height` image with their classes, as [`read_boxes`] does without.
+///
+/// Boxes that hold no pixel are read too, if they touch the image: a label may be a sliver at its edge.
+///
+/// # Errors
+///
+/// As [`read_boxes`], but for such boxes.
+pub fn read_labels(
+    path: impl AsRef<Path>,
+    width: usize,
+    height: usize,
+) -> Result<Vec<LabelledBox>, CloudError> {
+    let path = path.as_ref();
+    let bytes = file::read_bytes(path)?;
+    let labels = parse(&bytes, width, height).map_err(|fault| fault.at(path))?;
+    touch_all(path, &labels, width, height)?;
+    Ok(labels)
 }
 
 /// Writes the boxes of a `width` × `height` image.
@@ -73,15 +98,41 @@ pub(crate) fn validate_all(
     width: usize,
     height: usize,
 ) -> Result<(), CloudError> {
-    boxes.iter().try_for_each(|b| {
-        b.validate(width, height).map_err(|source| CloudError::Box {
-            path: path.to_owned(),
-            source,
-        })
-    })
+    let checked = boxes.iter().try_for_each(|b| b.validate(width, height));
+    checked.map_err(|source| at_file(path, source))
 }
 
-fn parse(bytes: &[u8], width: usize, height: usize) -> Result<Vec<PixelBox>, Fault> {
+/// Refuses labels that do not touch their image.
+fn touch_all(
+    path: &Path,
+    labels: &[LabelledBox],
+    width: usize,
+    height: usize,
+) -> Result<(), CloudError> {
+    let checked = labels
+        .iter()
+        .try_for_each(|label| label.bounds.touches(width, height));
+    checked.map_err(|source| at_file(path, source))
+}
+
+fn at_file(path: &Path, source: BoxError) -> CloudError {
+    CloudError::Box {
+        path: path.to_owned(),
+        source,
+    }
+}
+
+fn parse(bytes: &[u8], width: usize, height: usize) -> Result<Vec<LabelledBox>, Fault> {
+    let text = text_of(bytes)?;
+    match text.trim_start().chars().next() {
+        Some('<') => voc::parse(text, width, height),
+        Some('{' | '[') => coco::parse(text, width, height),
+        _ => yolo::parse(text, width, height),
+    }
+}
+
+/// The text of a box file, without a byte-order mark.
+fn text_of(bytes: &[u8]) -> Result<&str, Fault> {
     let text = std::str::from_utf8(bytes).map_err(|e| {
         let place = format!("byte {}", e.valid_up_to());
         Fault::new(
@@ -90,12 +141,7 @@ fn parse(bytes: &[u8], width: usize, height: usize) -> Result<Vec<PixelBox>, Fau
             "give boxes as VOC XML, COCO JSON or YOLO text",
         )
     })?;
-    let text = text.trim_start_matches('\u{feff}');
-    match text.trim_start().chars().next() {
-        Some('<') => voc::parse(text, width, height),
-        Some('{' | '[') => coco::parse(text, width, height),
-        _ => yolo::parse(text, width, height),
-    }
+    Ok(text.trim_start_matches('\u{feff}'))
 }
 
 /// Refuses a box file that was made for an image of another size.
@@ -213,8 +259,8 @@ mod tests {
                 for change in [1, 3, 0x10, 0x80] {
                     let mut bytes = whole.clone().into_bytes();
                     bytes[at] ^= change;
-                    for pixel_box in parse(&bytes, 64, 32).unwrap_or_default() {
-                        let _ = pixel_box.window(64, 32);
+                    for label in parse(&bytes, 64, 32).unwrap_or_default() {
+                        let _ = label.bounds.window(64, 32);
                     }
                 }
             }

@@ -42,6 +42,17 @@ impl ColorImage {
         image::parse_color(&bytes).map_err(|fault| fault.at(path))
     }
 
+    /// Width and height of a PNG or a JPEG in pixels, from its header alone.
+    ///
+    /// # Errors
+    ///
+    /// As [`ColorImage::read`]; what is wrong behind the header is not seen.
+    pub fn read_size(path: impl AsRef<Path>) -> Result<(usize, usize), CloudError> {
+        let path = path.as_ref();
+        let bytes = file::read_bytes(path)?;
+        image::parse_size(&bytes).map_err(|fault| fault.at(path))
+    }
+
     /// Writes an 8-bit RGB PNG.
     ///
     /// # Errors

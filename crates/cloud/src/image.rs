@@ -7,17 +7,35 @@ use crate::ColorImage;
 use crate::error::Fault;
 
 pub(crate) fn parse_color(bytes: &[u8]) -> Result<ColorImage, Fault> {
-    if bytes.starts_with(b"\x89PNG") {
+    if bytes.starts_with(PNG) {
         png::parse_color(bytes)
-    } else if bytes.starts_with(b"\xff\xd8") {
+    } else if bytes.starts_with(JPEG) {
         jpeg::parse(bytes)
     } else {
-        Err(Fault::new(
-            "byte 0",
-            "neither a PNG nor a JPEG",
-            "convert the picture to one of them",
-        ))
+        Err(neither())
     }
+}
+
+/// Width and height that the header states.
+pub(crate) fn parse_size(bytes: &[u8]) -> Result<(usize, usize), Fault> {
+    if bytes.starts_with(PNG) {
+        png::parse_size(bytes)
+    } else if bytes.starts_with(JPEG) {
+        jpeg::parse_size(bytes)
+    } else {
+        Err(neither())
+    }
+}
+
+const PNG: &[u8] = b"\x89PNG";
+const JPEG: &[u8] = b"\xff\xd8";
+
+fn neither() -> Fault {
+    Fault::new(
+        "byte 0",
+        "neither a PNG nor a JPEG",
+        "convert the picture to one of them",
+    )
 }
 
 /// Refuses a picture whose header claims more than `per_byte` times the file's size,

@@ -61,7 +61,8 @@
 //! perhaps the boxes of the apples in them. Its folder holds `color.png` (or `.jpg`),
 //! `depth.png` (16-bit grey), `camera.json` (or a ROS `CameraInfo` in YAML, or Open3D's
 //! `intrinsic.json`), and `boxes.xml`, `.json` or `.txt` (VOC, COCO, YOLO). [`read_tum`] reads the
-//! other common folder, that of the TUM RGB-D benchmark.
+//! other common folder, that of the TUM RGB-D benchmark. A [`CocoDataset`] holds the boxes of many images in one file;
+//! a [`LabelledBox`] is a box with its class.
 //!
 //! Lengths are in metres, in the camera's REP-103 optical frame: x right, y down, z forward.
 //! Depth is z, not range; a depth of 0 is 'no reading'. Pixel (0, 0) is the centre of
@@ -103,7 +104,10 @@ mod image;
 mod points;
 mod window;
 
-pub use boxes::{BoxError, BoxFormat, PixelBox, read_boxes, write_boxes};
+pub use boxes::{
+    BoxError, BoxFormat, CocoCategory, CocoDataset, CocoImage, CocoResult, ImageKey, LabelKind,
+    LabelledBox, PixelBox, read_boxes, read_coco_results, read_labels, write_boxes,
+};
 pub use camera::{Camera, CameraError, Distortion, Lens};
 pub use cloud::PointCloud;
 pub use color::ColorImage;

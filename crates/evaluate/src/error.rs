@@ -48,6 +48,14 @@ pub enum EvaluateError {
         /// What to do.
         remedy: String,
     },
+    /// A detector could not work on an image.
+    #[error("{}: {source}", .image.display())]
+    Detection {
+        /// The image.
+        image: PathBuf,
+        /// What it said.
+        source: pomona_detect::DetectError,
+    },
     /// A table could not be written as text.
     #[error("table of apples: {reason}")]
     Table {

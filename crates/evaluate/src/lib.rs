@@ -30,6 +30,9 @@
 //! - [`report_page`] and [`apples_csv`] are what `report.html` and `apples.csv` hold.
 //! - [`measure_calipers`] sets fitted radii beside measured diameters on real frames, and
 //!   aligns the apples of two frames of one tree.
+//! - [`evaluate_detections`] measures detectors, and boxes of other programs, on the labels of a
+//!   [`DetectionDataset`]: precision over recall ([`Curve`]), recall by size, what is missed and what is found
+//!   besides, with intervals and paired differences.
 //! - [`paper_figures`] holds every figure of the paper that ours is set beside.
 //!
 //! # Not here
@@ -45,6 +48,7 @@
 mod calipers;
 mod comparison;
 mod depth_check;
+mod detection;
 mod error;
 mod grouping;
 mod lab;
@@ -69,6 +73,11 @@ pub use comparison::{Comparison, compare};
 pub use depth_check::{
     DepthCheckResult, FixedDetector, MarkCounts, MergeCounts, SearchCounts,
     measure_boxed_frame, measure_depth_checks,
+pub use detection::{
+    AtThreshold, BestF1, COCO_SIZES, Curve, CurvePoint, DETECTION_SCHEMA, DatasetRecord,
+    DetectionDataset, DetectionDifference, DetectionEvaluation, DetectionResult, DetectionSettings,
+    DetectionSource, Estimate, FINE_SIZES, ImageOutcome, Label, LabelForm, LabelledImage, Outcome,
+    SizeClass, SizeRecall, WorstImage, evaluate_detections, match_detections, read_detections,
 };
 pub use error::EvaluateError;
 pub use grouping::{Difficulty, Group, Grouping};
@@ -77,7 +86,7 @@ pub use matching::{SAME_APPLE_IOU, match_picks};
 pub use method::PickMethod;
 pub use reliability::{ConfidenceBin, RIGHT_RAD, Reliability, RiskPoint, SdCalibration, UNSURE};
 pub use repeatability::Repeatability;
-pub use report::{caliper_page, report_page};
+pub use report::{caliper_page, detection_page, report_page};
 pub use result::{AngleErrors, Evaluation, Refusals, SCHEMA, SuiteResult, Timing};
 pub use row::{
     AppleRow, NO_BOX, VISIBLE_APPLE_SHARE, VISIBLE_BRANCH_LENGTH_M, VISIBLE_BRANCH_PIXELS,

@@ -1,6 +1,7 @@
 //! The page that a person reads.
 
 mod caliper_page;
+mod detection_page;
 mod difficulty;
 mod html;
 mod lab_tables;
@@ -12,6 +13,7 @@ mod repeats;
 mod spread;
 
 pub use caliper_page::caliper_page;
+pub use detection_page::detection_page;
 
 use crate::{AppleRow, EvaluateError, Evaluation, SuiteResult};
 use html::{escape, page, paragraph};

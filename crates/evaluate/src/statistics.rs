@@ -3,7 +3,7 @@ use rand_core::{Rng, SeedableRng};
 use serde::{Deserialize, Serialize};
 
 /// Resamples of a bootstrap interval: enough for its ends to stand still in the second digit.
-const RESAMPLES: usize = 2000;
+pub(crate) const RESAMPLES: usize = 2000;
 
 /// Two-sided 95 % quantile of the normal distribution.
 const NORMAL_95: f64 = 1.959_963_984_540_054;
@@ -176,7 +176,7 @@ pub(crate) fn bootstrap_mean(values: &[(usize, f64)]) -> [f64; 2] {
 }
 
 /// A number below `n`, n under 2³²; the bias of the product form is under n / 2³².
-fn below(rng: &mut ChaCha8Rng, n: usize) -> usize {
+pub(crate) fn below(rng: &mut ChaCha8Rng, n: usize) -> usize {
     ((u64::from(rng.next_u32()) * n as u64) >> 32) as usize
 }
 

@@ -40,7 +40,12 @@ pub(crate) fn draw_refused_box(canvas: &mut Canvas, part: [f32; 4], scale: f32) 
     outline(canvas, part, palette::REFUSED, scale);
 }
 
-fn outline(canvas: &mut Canvas, [left, top, right, bottom]: [f32; 4], color: [u8; 3], scale: f32) {
+pub(crate) fn outline(
+    canvas: &mut Canvas,
+    [left, top, right, bottom]: [f32; 4],
+    color: [u8; 3],
+    scale: f32,
+) {
     let corners = [(left, top), (right, top), (right, bottom), (left, bottom)];
     let corners = corners.map(|(x, y)| Point::from_xy(x, y));
     canvas.polyline(&corners, true, palette::PLATE, 0.55, 4.0 * scale);

@@ -34,6 +34,8 @@
 //! the line of sight has no length in the picture and is drawn as a physicist
 //! would: ⊙ comes towards the camera, ⊗ goes away from it.
 //!
+//! [`draw_boxes`] draws nothing but boxes, each a [`BoxMark`], and [`picture_sheet`] sets such pictures side by side.
+//!
 //! [`colored_cloud`] colours the points of a cloud in the same way and adds
 //! the direction as points, so that any viewer of PLY files shows it;
 //! [`render_cloud`] looks at a cloud from a [`Viewpoint`].
@@ -56,6 +58,7 @@
 //! doi 10.3390/agriculture12081170 (the colours of its figures).
 
 mod arrow;
+mod box_picture;
 mod boxes;
 mod canvas;
 mod colored_cloud;
@@ -71,12 +74,15 @@ pub mod palette;
 mod points;
 mod projection;
 mod render;
+mod sheet;
 mod text;
 mod viewpoint;
 
+pub use box_picture::{BoxKind, BoxMark, draw_boxes};
 pub use colored_cloud::{CloudMark, colored_cloud};
 pub use error::ViewError;
 pub use mark::AppleMark;
 pub use overlay::Overlay;
 pub use render::{RenderOptions, render_cloud};
+pub use sheet::{SheetPicture, picture_sheet};
 pub use viewpoint::{Projection, Viewpoint};

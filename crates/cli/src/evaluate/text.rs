@@ -2,7 +2,7 @@ use crate::terminal::{FAINT, HEADING, Terminal, one_line};
 use pomona_evaluate::{Alignment, CaliperReport, Evaluation, LabRow, Share, SuiteResult, Summary};
 
 /// What stands where nothing is known.
-const UNKNOWN: &str = "-";
+pub(super) const UNKNOWN: &str = "-";
 
 /// An evaluation as tables of text.
 pub(super) fn evaluation(evaluation: &Evaluation, terminal: Terminal) -> String {
@@ -248,7 +248,7 @@ fn lab(row: &LabRow) -> Vec<String> {
     ]
 }
 
-fn known<T>(value: Option<T>, form: impl Fn(T) -> String) -> String {
+pub(super) fn known<T>(value: Option<T>, form: impl Fn(T) -> String) -> String {
     value.map_or_else(|| UNKNOWN.to_owned(), form)
 }
 
@@ -273,7 +273,7 @@ fn with_interval(summary: &Summary, form: fn(f64) -> String) -> String {
 }
 
 /// A title, a header and rows; the first `words` columns are words and stand to the left.
-fn table(
+pub(super) fn table(
     title: &str,
     header: &[&str],
     rows: &[Vec<String>],

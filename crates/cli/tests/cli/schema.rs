@@ -5,10 +5,10 @@ use crate::scene::Bench;
 use serde_json::{Value, json};
 use std::path::Path;
 
-struct Schema(jsonschema::Validator);
+pub(crate) struct Schema(jsonschema::Validator);
 
 impl Schema {
-    fn read(name: &str) -> Self {
+    pub(crate) fn read(name: &str) -> Self {
         let path = Path::new(env!("CARGO_MANIFEST_DIR"))
             .join("../../docs")
             .join(name);
@@ -18,7 +18,7 @@ impl Schema {
     }
 
     #[track_caller]
-    fn accepts(&self, value: &Value) {
+    pub(crate) fn accepts(&self, value: &Value) {
         let errors: Vec<String> = self
             .0
             .iter_errors(value)
@@ -29,7 +29,7 @@ impl Schema {
 
     /// Checks that `value` is refused with one of its places changed.
     #[track_caller]
-    fn refuses(&self, value: &Value, place: &str, new: Option<Value>) {
+    pub(crate) fn refuses(&self, value: &Value, place: &str, new: Option<Value>) {
         let mut changed = value.clone();
         let (parent, name) = place.rsplit_once('/').unwrap();
         let parent = changed

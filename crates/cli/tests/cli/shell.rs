@@ -13,6 +13,7 @@ fn help_and_version() {
     );
     for command in [
         "pick",
+        "detect",
         "scenes",
         "convert",
         "inspect",

@@ -1,74 +1,124 @@
 //! COCO JSON, <https://cocodataset.org/#format-data>: a ground-truth object with `images`
 //! and `annotations`, or the bare list of detections that its result files are.
 
-use super::{PixelBox, check_size};
+use super::{LabelKind, LabelledBox, PixelBox, check_size};
 use crate::error::Fault;
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize};
 
 const REMEDY: &str =
     "give COCO JSON with `annotations`, each with `bbox`: [x, y, width, height] in pixels";
 
 #[derive(Serialize, Deserialize)]
-struct Dataset {
+pub(super) struct Dataset {
     #[serde(default)]
-    images: Vec<Image>,
-    annotations: Vec<Annotation>,
-    #[serde(default, skip_deserializing)]
-    categories: Vec<Category>,
+    pub(super) images: Vec<Image>,
+    pub(super) annotations: Vec<Annotation>,
+    #[serde(default)]
+    pub(super) categories: Vec<Category>,
 }
 
 #[derive(Serialize, Deserialize)]
-struct Image {
-    id: u64,
+pub(super) struct Image {
+    pub(super) id: u64,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) file_name: Option<String>,
     #[serde(default)]
-    width: u32,
+    pub(super) width: u32,
     #[serde(default)]
-    height: u32,
+    pub(super) height: u32,
 }
 
 #[derive(Serialize, Deserialize)]
-struct Annotation {
+pub(super) struct Annotation {
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    id: Option<u64>,
+    pub(super) id: Option<u64>,
     #[serde(default)]
-    image_id: u64,
+    pub(super) image_id: u64,
     #[serde(default)]
-    category_id: u64,
-    bbox: [f64; 4],
+    pub(super) category_id: u64,
+    pub(super) bbox: [f64; 4],
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    score: Option<f64>,
+    pub(super) score: Option<f64>,
     /// Not in the standard, whose names are those of classes: the name of this one apple.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    name: Option<String>,
+    pub(super) name: Option<String>,
     #[serde(default)]
-    area: f64,
-    #[serde(default)]
-    iscrowd: u8,
+    pub(super) area: f64,
+    #[serde(default, deserialize_with = "flag")]
+    pub(super) iscrowd: u8,
+    #[serde(default, deserialize_with = "flag", skip_serializing_if = "is_zero")]
+    pub(super) ignore: u8,
 }
 
-#[derive(Serialize)]
-struct Category {
-    id: u64,
-    name: &'static str,
+#[derive(Serialize, Deserialize)]
+pub(super) struct Category {
+    pub(super) id: u64,
+    #[serde(default)]
+    pub(super) name: Option<String>,
 }
 
-pub(super) fn parse(text: &str, width: usize, height: usize) -> Result<Vec<PixelBox>, Fault> {
-    let fault = |e: serde_json::Error| {
-        Fault::new(
-            format!("line {} column {}", e.line(), e.column()),
-            e.to_string(),
-            REMEDY,
-        )
-    };
-    let annotations = if text.trim_start().starts_with('[') {
-        serde_json::from_str::<Vec<Annotation>>(text).map_err(fault)?
+#[allow(
+    clippy::trivially_copy_pass_by_ref,
+    reason = "serde hands a reference over"
+)]
+fn is_zero(number: &u8) -> bool {
+    *number == 0
+}
+
+/// 0 or 1, which some tools write as `false` or `true`.
+fn flag<'de, D: Deserializer<'de>>(deserializer: D) -> Result<u8, D::Error> {
+    #[derive(Deserialize)]
+    #[serde(untagged)]
+    enum Flag {
+        Word(bool),
+        Number(u8),
+    }
+    Ok(match Flag::deserialize(deserializer)? {
+        Flag::Word(word) => u8::from(word),
+        Flag::Number(number) => number,
+    })
+}
+
+impl Annotation {
+    /// The box that stands at `index`, its class named by one of `categories`.
+    pub(super) fn labelled(self, index: usize, categories: &[Category]) -> LabelledBox {
+        let [x, y, w, h] = self.bbox;
+        let name = self.name.unwrap_or_else(|| {
+            let number = self.id.map_or(index as u64, |id| id);
+            number.to_string()
+        });
+        let category = categories.iter().find(|c| c.id == self.category_id);
+        LabelledBox {
+            bounds: PixelBox {
+                name,
+                x_min: x,
+                y_min: y,
+                x_max: x + w,
+                y_max: y + h,
+                score: self.score.unwrap_or(1.0),
+            },
+            class_number: Some(self.category_id),
+            class_name: category.and_then(|c| c.name.clone()),
+            kind: match (self.iscrowd, self.ignore) {
+                (0, 0) => LabelKind::Object,
+                (0, _) => LabelKind::Difficult,
+                _ => LabelKind::Crowd,
+            },
+        }
+    }
+}
+
+pub(super) fn parse(text: &str, width: usize, height: usize) -> Result<Vec<LabelledBox>, Fault> {
+    let (annotations, categories) = if text.trim_start().starts_with('[') {
+        let annotations: Vec<Annotation> = serde_json::from_str(text).map_err(fault)?;
+        (annotations, Vec::new())
     } else {
         let dataset: Dataset = serde_json::from_str(text).map_err(fault)?;
         for image in &dataset.images {
             let stated = (f64::from(image.width), f64::from(image.height));
             check_size("`images`", stated, width, height)?;
         }
-        dataset.annotations
+        (dataset.annotations, dataset.categories)
     };
     if let Some(other) = annotations
         .iter()
@@ -87,20 +137,18 @@ pub(super) fn parse(text: &str, width: usize, height: usize) -> Result<Vec<Pixel
     Ok(annotations
         .into_iter()
         .enumerate()
-        .map(|(index, a)| {
-            let [x, y, w, h] = a.bbox;
-            PixelBox {
-                name: a
-                    .name
-                    .unwrap_or_else(|| a.id.map_or_else(|| index.to_string(), |id| id.to_string())),
-                x_min: x,
-                y_min: y,
-                x_max: x + w,
-                y_max: y + h,
-                score: a.score.unwrap_or(1.0),
-            }
-        })
+        .map(|(index, annotation)| annotation.labelled(index, &categories))
         .collect())
+}
+
+/// What serde found wrong, with its place.
+#[allow(clippy::needless_pass_by_value, reason = "`map_err` hands errors over")]
+pub(super) fn fault(e: serde_json::Error) -> Fault {
+    Fault::new(
+        format!("line {} column {}", e.line(), e.column()),
+        e.to_string(),
+        REMEDY,
+    )
 }
 
 pub(super) fn format(boxes: &[PixelBox], width: usize, height: usize) -> String {
@@ -113,17 +161,19 @@ pub(super) fn format(boxes: &[PixelBox], width: usize, height: usize) -> String 
         name: Some(b.name.clone()),
         area: b.width() * b.height(),
         iscrowd: 0,
+        ignore: 0,
     });
     let dataset = Dataset {
         images: vec![Image {
             id: 1,
+            file_name: None,
             width: width as u32,
             height: height as u32,
         }],
         annotations: annotations.collect(),
         categories: vec![Category {
             id: 1,
-            name: "apple",
+            name: Some("apple".to_owned()),
         }],
     };
     // Neither maps with odd keys nor failing writers are in here.
@@ -139,19 +189,32 @@ mod tests {
         let dataset = r#"{"info":{"year":2024},"images":[{"id":7,"width":9,"height":8,"file_name":"a.png"}],
             "annotations":[{"id":41,"image_id":7,"category_id":53,"bbox":[1,2,3,4],"segmentation":[]}],
             "categories":[{"id":53,"name":"apple"}]}"#;
-        let boxes = parse(dataset, 9, 8).unwrap();
-        assert_eq!(boxes[0].name, "41");
-        assert_eq!(
-            (boxes[0].x_max, boxes[0].y_max, boxes[0].score),
-            (4.0, 6.0, 1.0)
-        );
+        let label = parse(dataset, 9, 8).unwrap().remove(0);
+        let class = (label.class_number, label.class_name.as_deref());
+        assert_eq!(class, (Some(53), Some("apple")));
+        let first = label.bounds;
+        assert_eq!(first.name, "41");
+        assert_eq!((first.x_max, first.y_max, first.score), (4.0, 6.0, 1.0));
         let detections = r#"[{"image_id":7,"category_id":53,"bbox":[1.5,2,3,4],"score":0.5}]"#;
-        let boxes = parse(detections, 9, 8).unwrap();
+        let first = parse(detections, 9, 8).unwrap().remove(0).bounds;
         assert_eq!(
-            (boxes[0].name.as_str(), boxes[0].x_min, boxes[0].score),
+            (first.name.as_str(), first.x_min, first.score),
             ("0", 1.5, 0.5)
         );
         assert_eq!(parse("[]", 9, 8).unwrap(), []);
+    }
+
+    #[test]
+    fn crowds_and_ignored_ones_are_marked() {
+        for (flags, kind) in [
+            (r#""iscrowd":0"#, LabelKind::Object),
+            (r#""iscrowd":1"#, LabelKind::Crowd),
+            (r#""ignore":true"#, LabelKind::Difficult),
+            (r#""ignore":false,"iscrowd":true"#, LabelKind::Crowd),
+        ] {
+            let text = format!(r#"{{"annotations":[{{"bbox":[1,2,3,4],{flags}}}]}}"#);
+            assert_eq!(parse(&text, 9, 8).unwrap()[0].kind, kind, "{flags}");
+        }
     }
 
     #[test]

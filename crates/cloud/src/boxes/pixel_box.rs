@@ -73,6 +73,45 @@ impl PixelBox {
     /// A [`BoxError`] where a number is not finite, the box is inverted, or it holds no
     /// pixel of the image.
     pub fn window(&self, width: usize, height: usize) -> Result<PixelWindow, BoxError> {
+        self.check_numbers()?;
+        let edges = [self.x_min, self.y_min, self.x_max, self.y_max];
+        let [x_min, y_min, x_max, y_max] = edges;
+        let window = PixelWindow::clamped(x_min, y_min, x_max, y_max, width, height);
+        if window.is_empty() {
+            return Err(self.outside(width, height));
+        }
+        Ok(window)
+    }
+
+    /// Checks that the box shares area with a `width` × `height` image, if less than a pixel's: a label may be a sliver
+    /// at the edge.
+    ///
+    /// # Errors
+    ///
+    /// As [`PixelBox::window`], but for boxes between the pixels' centres.
+    pub fn touches(&self, width: usize, height: usize) -> Result<(), BoxError> {
+        self.check_numbers()?;
+        let inside = self.x_max > 0.0
+            && self.y_max > 0.0
+            && self.x_min < width as f64
+            && self.y_min < height as f64;
+        if inside {
+            return Ok(());
+        }
+        Err(self.outside(width, height))
+    }
+
+    fn outside(&self, width: usize, height: usize) -> BoxError {
+        BoxError::Outside {
+            name: self.name.clone(),
+            edges: [self.x_min, self.y_min, self.x_max, self.y_max],
+            width,
+            height,
+        }
+    }
+
+    /// Checks that numbers are finite, and the edges in order.
+    fn check_numbers(&self) -> Result<(), BoxError> {
         let name = || self.name.clone();
         for (field, value) in [
             ("x_min", self.x_min),
@@ -101,18 +140,7 @@ impl PixelBox {
                 });
             }
         }
-        let edges = [self.x_min, self.y_min, self.x_max, self.y_max];
-        let [x_min, y_min, x_max, y_max] = edges;
-        let window = PixelWindow::clamped(x_min, y_min, x_max, y_max, width, height);
-        if window.is_empty() {
-            return Err(BoxError::Outside {
-                name: name(),
-                edges,
-                width,
-                height,
-            });
-        }
-        Ok(window)
+        Ok(())
     }
 
     /// Checks that the box holds pixels of a `width` × `height` image.
@@ -170,6 +198,15 @@ mod tests {
                 y1: 8
             }
         );
+    }
+
+    #[test]
+    fn a_sliver_at_the_edge_touches_the_image_and_holds_no_pixel() {
+        let sliver = boxed("a", 3.0, 7.8, 9.0, 8.0);
+        assert!(sliver.validate(10, 8).is_err() && sliver.touches(10, 8).is_ok());
+        for (x_min, x_max) in [(-3.0, 0.0), (10.0, 12.0), (5.0, 4.0), (f64::NAN, 4.0)] {
+            assert!(boxed("a", x_min, 1.0, x_max, 3.0).touches(10, 8).is_err());
+        }
     }
 
     #[test]

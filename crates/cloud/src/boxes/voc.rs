@@ -1,7 +1,7 @@
 //! Pascal VOC annotation XML, with the tag names of the standard (`annotation`, `bndbox`)
 //! or those of the recordings that have `annotations` and `bbox`.
 
-use super::{PixelBox, check_size};
+use super::{LabelKind, LabelledBox, PixelBox, check_size};
 use crate::error::Fault;
 use roxmltree::{Document, Node};
 use std::fmt::Write;
@@ -9,7 +9,7 @@ use std::fmt::Write;
 const REMEDY: &str =
     "give VOC XML: annotation / object / name and bndbox with xmin, ymin, xmax, ymax";
 
-pub(super) fn parse(text: &str, width: usize, height: usize) -> Result<Vec<PixelBox>, Fault> {
+pub(super) fn parse(text: &str, width: usize, height: usize) -> Result<Vec<LabelledBox>, Fault> {
     let document = Document::parse(text).map_err(|e| Fault::new("XML", e.to_string(), REMEDY))?;
     let root = document.root_element();
     if !matches!(root.tag_name().name(), "annotation" | "annotations") {
@@ -38,7 +38,9 @@ pub(super) fn parse(text: &str, width: usize, height: usize) -> Result<Vec<Pixel
                 .map(str::trim);
             let score = child(object, &["score", "confidence"]);
             let score_name = score.map_or("score", |node| node.tag_name().name());
-            Ok(PixelBox {
+            let difficult = child(object, &["difficult"]).is_some()
+                && number(&document, object, "difficult")? != 0.0;
+            let bounds = PixelBox {
                 name: name.map_or_else(|| index.to_string(), str::to_owned),
                 x_min: number(&document, edges, "xmin")?,
                 y_min: number(&document, edges, "ymin")?,
@@ -48,6 +50,16 @@ pub(super) fn parse(text: &str, width: usize, height: usize) -> Result<Vec<Pixel
                     number(&document, object, score_name)?
                 } else {
                     1.0
+                },
+            };
+            Ok(LabelledBox {
+                bounds,
+                class_number: None,
+                class_name: name.map(str::to_owned),
+                kind: if difficult {
+                    LabelKind::Difficult
+                } else {
+                    LabelKind::Object
                 },
             })
         })
@@ -121,7 +133,11 @@ mod tests {
             let xml = format!(
                 "<{root}>\r\n<size><width>9</width><height>8</height></size><object><name> 2118 </name><{tag}><xmin>1</xmin><ymin>2.5</ymin><xmax>3</xmax><ymax>4</ymax></{tag}></object><object><{tag}><xmin>1</xmin><ymin>2</ymin><xmax>3</xmax><ymax>4</ymax></{tag}></object></{root}>"
             );
-            let boxes = parse(&xml, 9, 8).unwrap();
+            let boxes: Vec<_> = parse(&xml, 9, 8)
+                .unwrap()
+                .into_iter()
+                .map(|label| label.bounds)
+                .collect();
             assert_eq!(boxes.len(), 2);
             assert_eq!(
                 (boxes[0].name.as_str(), boxes[0].y_min, boxes[0].score),
@@ -129,6 +145,30 @@ mod tests {
             );
             assert_eq!(boxes[1].name, "1");
         }
+    }
+
+    #[test]
+    fn names_are_classes_and_difficult_ones_are_marked() {
+        let object = |more: &str| {
+            format!(
+                "<object><name>apple</name>{more}<bndbox><xmin>1</xmin><ymin>2</ymin><xmax>3</xmax><ymax>4</ymax></bndbox></object>"
+            )
+        };
+        let parse_one =
+            |more: &str| parse(&format!("<annotation>{}</annotation>", object(more)), 9, 8);
+        for (more, kind) in [
+            ("", LabelKind::Object),
+            ("<difficult>0</difficult>", LabelKind::Object),
+            ("<difficult>1</difficult>", LabelKind::Difficult),
+        ] {
+            let label = parse_one(more).unwrap().remove(0);
+            assert_eq!(
+                (label.class_name.as_deref(), label.kind),
+                (Some("apple"), kind)
+            );
+        }
+        let fault = parse_one("<difficult>no</difficult>").unwrap_err();
+        assert!(fault.problem.contains("difficult"), "{fault:?}");
     }
 
     #[test]

@@ -1,13 +1,13 @@
 //! YOLO label text: `class cx cy w h [score]` on each line, as fractions of the image.
 
-use super::PixelBox;
+use super::{LabelKind, LabelledBox, PixelBox};
 use crate::error::Fault;
 use std::fmt::Write;
 
 const REMEDY: &str =
     "give `class cx cy w h [score]` on each line, as fractions of the image's width and height";
 
-pub(super) fn parse(text: &str, width: usize, height: usize) -> Result<Vec<PixelBox>, Fault> {
+pub(super) fn parse(text: &str, width: usize, height: usize) -> Result<Vec<LabelledBox>, Fault> {
     let (width, height) = (width as f64, height as f64);
     let mut boxes = Vec::new();
     for (line, number) in text.lines().zip(1..) {
@@ -22,9 +22,9 @@ pub(super) fn parse(text: &str, width: usize, height: usize) -> Result<Vec<Pixel
                 tokens.len()
             )));
         }
-        if tokens[0].parse::<u32>().is_err() {
-            return Err(fault(format!("class `{}` is no whole number", tokens[0])));
-        }
+        let class: u32 = tokens[0]
+            .parse()
+            .map_err(|_| fault(format!("class `{}` is no whole number", tokens[0])))?;
         let mut values = [0.0, 0.0, 0.0, 0.0, 1.0];
         for (value, token) in values.iter_mut().zip(&tokens[1..]) {
             *value = token
@@ -32,13 +32,19 @@ pub(super) fn parse(text: &str, width: usize, height: usize) -> Result<Vec<Pixel
                 .map_err(|_| fault(format!("`{token}` is not a number")))?;
         }
         let [cx, cy, w, h, score] = values;
-        boxes.push(PixelBox {
+        let bounds = PixelBox {
             name: boxes.len().to_string(),
             x_min: (cx - 0.5 * w) * width,
             y_min: (cy - 0.5 * h) * height,
             x_max: (cx + 0.5 * w) * width,
             y_max: (cy + 0.5 * h) * height,
             score,
+        };
+        boxes.push(LabelledBox {
+            bounds,
+            class_number: Some(class.into()),
+            class_name: None,
+            kind: LabelKind::Object,
         });
     }
     Ok(boxes)
@@ -74,12 +80,17 @@ mod tests {
         )
         .unwrap();
         assert_eq!(boxes.len(), 2);
-        let b = &boxes[0];
+        assert_eq!(
+            (boxes[0].class_number, boxes[1].class_number),
+            (Some(0), Some(53))
+        );
+        let b = &boxes[0].bounds;
         assert_eq!(
             (b.x_min, b.y_min, b.x_max, b.y_max, b.score),
             (3.0, 1.0, 5.0, 3.0, 1.0)
         );
-        assert_eq!((boxes[1].name.as_str(), boxes[1].score), ("1", 0.75));
+        let second = &boxes[1].bounds;
+        assert_eq!((second.name.as_str(), second.score), ("1", 0.75));
         assert_eq!(parse("", 8, 4).unwrap(), []);
     }
 

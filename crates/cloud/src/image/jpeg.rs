@@ -10,30 +10,16 @@ use zune_jpeg::zune_core::options::DecoderOptions;
 /// codes of one bit or more.
 const PIXELS_PER_BYTE: usize = 512;
 
+type Decoder<'a> = JpegDecoder<ZCursor<&'a [u8]>>;
+
 pub(super) fn parse(bytes: &[u8]) -> Result<ColorImage, Fault> {
-    let fault = |problem: String| {
-        Fault::new(
-            "JPEG data",
-            problem,
-            "write the picture again, as baseline or progressive JPEG or as PNG",
-        )
-    };
     // The decoder takes a file that is cut short in its last rows.
     if !reaches_end(bytes) {
         return Err(fault(
             "the file is cut short: no end-of-image marker".to_owned(),
         ));
     }
-    // Without strict mode a file that is cut short comes back as a picture with a grey rest.
-    let options = DecoderOptions::default()
-        .set_strict_mode(true)
-        .jpeg_set_out_colorspace(ColorSpace::RGB);
-    let mut decoder = JpegDecoder::new_with_options(ZCursor::new(bytes), options);
-    decoder.decode_headers().map_err(|e| fault(e.to_string()))?;
-    let (width, height) = decoder
-        .dimensions()
-        .ok_or_else(|| fault("the header has no size".to_owned()))?;
-    check_claim(width, height, bytes, PIXELS_PER_BYTE)?;
+    let (mut decoder, (width, height)) = open(bytes)?;
     let data = decoder.decode().map_err(|e| fault(e.to_string()))?;
     let pixels = data.as_chunks::<3>().0.to_vec();
     if pixels.len() != width * height || data.len() != 3 * pixels.len() {
@@ -47,6 +33,33 @@ pub(super) fn parse(bytes: &[u8]) -> Result<ColorImage, Fault> {
         height,
         pixels,
     })
+}
+
+pub(super) fn parse_size(bytes: &[u8]) -> Result<(usize, usize), Fault> {
+    open(bytes).map(|(_, size)| size)
+}
+
+/// A decoder that has read the headers, and the size that they state.
+fn open(bytes: &[u8]) -> Result<(Decoder<'_>, (usize, usize)), Fault> {
+    // Without strict mode a file that is cut short comes back as a picture with a grey rest.
+    let options = DecoderOptions::default()
+        .set_strict_mode(true)
+        .jpeg_set_out_colorspace(ColorSpace::RGB);
+    let mut decoder = JpegDecoder::new_with_options(ZCursor::new(bytes), options);
+    decoder.decode_headers().map_err(|e| fault(e.to_string()))?;
+    let (width, height) = decoder
+        .dimensions()
+        .ok_or_else(|| fault("the header has no size".to_owned()))?;
+    check_claim(width, height, bytes, PIXELS_PER_BYTE)?;
+    Ok((decoder, (width, height)))
+}
+
+fn fault(problem: String) -> Fault {
+    Fault::new(
+        "JPEG data",
+        problem,
+        "write the picture again, as baseline or progressive JPEG or as PNG",
+    )
 }
 
 /// Whether the end-of-image marker stands where the segments lead to: a thumbnail inside the

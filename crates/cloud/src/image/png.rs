@@ -45,6 +45,11 @@ fn pixel_bytes(reader: &mut PngReader<'_>) -> Result<Vec<u8>, Fault> {
     Ok(data)
 }
 
+pub(super) fn parse_size(bytes: &[u8]) -> Result<(usize, usize), Fault> {
+    let reader = open(bytes, Transformations::IDENTITY)?;
+    Ok((reader.info().width as usize, reader.info().height as usize))
+}
+
 pub(crate) fn parse_color(bytes: &[u8]) -> Result<ColorImage, Fault> {
     let mut reader = open(bytes, Transformations::EXPAND | Transformations::STRIP_16)?;
     let (width, height) = (reader.info().width as usize, reader.info().height as usize);

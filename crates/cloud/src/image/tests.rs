@@ -239,3 +239,12 @@ fn images_of_the_wrong_number_of_pixels_are_not_written() {
     assert!(png::format_depth(&empty).is_err());
     assert!(parse_color(b"GIF89a").is_err());
 }
+
+#[test]
+fn the_size_is_read_from_the_header_alone() {
+    let png = png::format_color(&color_image()).unwrap();
+    assert_eq!(parse_size(&png), Ok((7, 5)));
+    assert_eq!(parse_size(BASELINE), Ok((24, 16)));
+    assert_eq!(parse_size(PROGRESSIVE), Ok((24, 16)));
+    assert!(parse_size(&png[..20]).is_err() && parse_size(b"GIF89a").is_err());
+}

@@ -1,0 +1,264 @@
+//! `pomona detect`: the apples in colour images.
+
+mod record;
+#[cfg(test)]
+mod tests;
+mod text;
+
+use crate::detector::DetectorArguments;
+use crate::image_paths::{NamedImage, images};
+use crate::output_folder::{OutputFolder, write_text};
+use crate::progress;
+use crate::terminal::{self, Terminal};
+use anyhow::bail;
+use clap::{Args, ValueEnum};
+use pomona_cloud::{
+    BoxFormat, CocoCategory, CocoDataset, CocoImage, ColorImage, LabelledBox, PixelBox, write_boxes,
+};
+use pomona_detect::{Detection, Detector};
+use pomona_view::{BoxKind, BoxMark, draw_boxes};
+use record::{DetectionRecord, DetectionsRecord, ImageRecord, TimingRecord};
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+const EXAMPLES: &str = "\
+Examples:
+  pomona detect photo.jpg --out out                  out/detections.json, boxes.json, photo-boxes.png
+  pomona detect photos frames/a --format voc --out out
+                                                     a VOC file for each image
+  pomona detect photos --model mine.onnx --class apple --threshold 0.4 --out out
+  pomona detect photos --runtime embedded --tiles 3x2 --out out
+  pomona detect photos --out out --json | jq '.images[].detections | length'
+
+An image is a PNG or a JPEG, a frame's folder (its colour image), or a folder of images or frames.
+
+Bad input ends with exit code 2 and writes nothing.";
+
+/// The record.
+const DETECTIONS: &str = "detections.json";
+/// The boxes of all images in one COCO file.
+const COCO: &str = "boxes.json";
+/// What the boxes are of, as box files name it.
+const CLASS: &str = "apple";
+
+/// A form of box files.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+enum Format {
+    /// One COCO JSON for all images.
+    #[default]
+    Coco,
+    /// A VOC XML for each image.
+    Voc,
+    /// A YOLO text for each image, with scores.
+    Yolo,
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct DetectArguments {
+    /// Images, frames, or folders of them.
+    #[arg(required = true, value_name = "IMAGE")]
+    images: Vec<PathBuf>,
+    /// Where to write. Our own files are replaced.
+    #[arg(short, long, value_name = "DIR")]
+    out: PathBuf,
+    /// How to write the boxes.
+    #[arg(long, value_name = "FORMAT", value_enum, default_value_t)]
+    format: Format,
+    /// Print the record to standard output in place of the table.
+    #[arg(long)]
+    json: bool,
+    /// Leave the pictures out.
+    #[arg(long)]
+    no_picture: bool,
+    #[command(flatten)]
+    detector: DetectorArguments,
+}
+
+pub(crate) fn run(arguments: &DetectArguments, terminal: Terminal) -> anyhow::Result<()> {
+    // What is wrong with the command line is said before a model is loaded.
+    let images = images(&arguments.images)?;
+    let earlier = record::files_of_earlier_run(&arguments.out.join(DETECTIONS));
+    refuse_foreign(arguments, &images, &earlier)?;
+    let opening = Instant::now();
+    let detector = arguments.detector.open()?;
+    let job = Job {
+        arguments,
+        images: &images,
+        earlier: &earlier,
+        detector: &*detector,
+        open_ms: milliseconds(opening),
+    };
+    job.run(terminal)
+}
+
+/// What is to be done, and with what.
+struct Job<'a> {
+    arguments: &'a DetectArguments,
+    images: &'a [NamedImage],
+    /// Files that an earlier run wrote.
+    earlier: &'a [String],
+    detector: &'a dyn Detector,
+    open_ms: f64,
+}
+
+impl Job<'_> {
+    fn run(&self, terminal: Terminal) -> anyhow::Result<()> {
+        let arguments = self.arguments;
+        let report = self.detector.report();
+        if let Some(reason) = report
+            .runtime
+            .as_ref()
+            .and_then(|r| r.fallback_reason.as_ref())
+        {
+            log::info!("{reason}");
+        }
+        let output = OutputFolder::new(&arguments.out)?;
+        let bar = progress::bar(self.images.len());
+        let mut records = Vec::new();
+        for image in self.images {
+            bar.set_message(image.name.clone());
+            records.push(detect(arguments, image, self.detector, &output)?);
+            bar.inc(1);
+        }
+        bar.finish_and_clear();
+        if arguments.format == Format::Coco {
+            coco(&records).write(output.file(COCO))?;
+        }
+        let record = DetectionsRecord::new(report, self.open_ms, records);
+        let json = serde_json::to_string_pretty(&record)? + "\n";
+        write_text(&output, DETECTIONS, &json)?;
+        output.publish_replacing(DETECTIONS, |name| self.earlier.iter().any(|e| e == name))?;
+        if arguments.json {
+            return terminal::print(&json);
+        }
+        let place = arguments.out.display();
+        let table = text::table(&record, terminal);
+        terminal::print(&format!("{table}\nwritten to {place}\n"))
+    }
+}
+
+/// Detects in one image, and writes its picture and its own box file, if it gets one.
+fn detect(
+    arguments: &DetectArguments,
+    image: &NamedImage,
+    detector: &dyn Detector,
+    output: &OutputFolder,
+) -> anyhow::Result<ImageRecord> {
+    let reading = Instant::now();
+    let pixels = ColorImage::read(&image.path)?;
+    let read = milliseconds(reading);
+    let detecting = Instant::now();
+    let found = detector
+        .detect(&pixels)
+        .map_err(|e| anyhow::anyhow!("{}: {e}", image.path.display()))?;
+    let detect = milliseconds(detecting);
+    let (width, height) = (pixels.width, pixels.height);
+    let named = |d: &Detection| d.to_pixel_box(CLASS);
+    // What holds no pixel of the image cannot stand in a box file and is no apple in it.
+    let found: Vec<Detection> = found
+        .into_iter()
+        .filter(|d| named(d).validate(width, height).is_ok())
+        .collect();
+    let boxes: Vec<PixelBox> = found.iter().map(named).collect();
+    let own = own_box_file(arguments.format, &image.name);
+    if let Some((name, format)) = &own {
+        write_boxes(output.file(name), &boxes, width, height, *format)?;
+    }
+    let picture = (!arguments.no_picture).then(|| picture_name(&image.name));
+    if let Some(name) = &picture {
+        let marks: Vec<BoxMark> = boxes
+            .into_iter()
+            .map(|bounds| BoxMark {
+                caption: format!("{:.2}", bounds.score),
+                kind: BoxKind::Detected,
+                bounds,
+            })
+            .collect();
+        draw_boxes(&pixels, &marks)?.write(output.file(name))?;
+    }
+    Ok(ImageRecord {
+        name: image.name.clone(),
+        file: image.path.to_string_lossy().into_owned(),
+        width,
+        height,
+        detections: found.iter().map(DetectionRecord::from).collect(),
+        boxes: own.map_or_else(|| COCO.to_owned(), |(name, _)| name),
+        picture,
+        timing_ms: TimingRecord { read, detect },
+    })
+}
+
+/// The box file of one image, where each has its own.
+fn own_box_file(format: Format, name: &str) -> Option<(String, BoxFormat)> {
+    match format {
+        Format::Coco => None,
+        Format::Voc => Some((format!("{name}.xml"), BoxFormat::Voc)),
+        Format::Yolo => Some((format!("{name}.txt"), BoxFormat::Yolo)),
+    }
+}
+
+fn picture_name(name: &str) -> String {
+    format!("{name}-boxes.png")
+}
+
+/// The boxes of all images in one data set; each image by its file's name.
+fn coco(records: &[ImageRecord]) -> CocoDataset {
+    let images = records.iter().zip(1..).map(|(record, id)| {
+        let boxes = record.detections.iter().map(|d| LabelledBox {
+            class_number: Some(1),
+            class_name: Some(CLASS.to_owned()),
+            ..LabelledBox::new(d.to_pixel_box(CLASS))
+        });
+        let file = Path::new(&record.file).file_name();
+        CocoImage {
+            id,
+            file_name: file
+                .map_or_else(|| record.file.clone(), |f| f.to_string_lossy().into_owned()),
+            width: record.width,
+            height: record.height,
+            boxes: boxes.collect(),
+        }
+    });
+    CocoDataset {
+        images: images.collect(),
+        categories: vec![CocoCategory {
+            id: 1,
+            name: CLASS.to_owned(),
+        }],
+    }
+}
+
+/// Refuses to replace a file that an earlier run of this command did not write.
+fn refuse_foreign(
+    arguments: &DetectArguments,
+    images: &[NamedImage],
+    earlier: &[String],
+) -> anyhow::Result<()> {
+    let folder = &arguments.out;
+    if folder.exists() && !folder.is_dir() {
+        bail!("--out {}: is a file; name a folder", folder.display());
+    }
+    let mut written = vec![DETECTIONS.to_owned()];
+    if arguments.format == Format::Coco {
+        written.push(COCO.to_owned());
+    }
+    for image in images {
+        written.extend(own_box_file(arguments.format, &image.name).map(|(name, _)| name));
+        if !arguments.no_picture {
+            written.push(picture_name(&image.name));
+        }
+    }
+    let is_foreign = |name: &&String| folder.join(name).exists() && !earlier.contains(name);
+    if let Some(name) = written.iter().find(is_foreign) {
+        bail!(
+            "{}: would be replaced, and no {DETECTIONS} says that this program wrote it; name another folder by --out",
+            folder.join(name).display()
+        );
+    }
+    Ok(())
+}
+
+fn milliseconds(since: Instant) -> f64 {
+    since.elapsed().as_secs_f64() * 1e3
+}

@@ -1,0 +1,300 @@
+use super::{DETECTION, EvaluateArguments, REPORT, detection_text, json, refuse_foreign, say};
+use crate::detector::{BUILT_IN, DetectorSettings, Model, parse_class, parse_model, parse_share};
+use crate::output_folder::{OutputFolder, write_text};
+use crate::progress;
+use crate::summary::plural;
+use crate::terminal::Terminal;
+use anyhow::bail;
+use clap::Args;
+use pomona_cloud::{ColorImage, PixelBox};
+use pomona_detect::{ClassChoice, Detection, Detector};
+use pomona_evaluate::{
+    DETECTION_SCHEMA, DetectionDataset, DetectionEvaluation, DetectionSettings, DetectionSource,
+    ImageOutcome, Label, detection_page, evaluate_detections, read_detections,
+};
+use pomona_view::{BoxKind, BoxMark, SheetPicture, picture_sheet};
+use std::path::{Path, PathBuf};
+
+/// Heading of these options.
+const HEADING: &str = "Detection";
+/// Pictures in a row of a sheet.
+const SHEET_COLUMNS: usize = 4;
+/// Side of a picture on a sheet, pixels.
+const SHEET_SIDE: usize = 416;
+
+/// What `--detection` measures.
+#[derive(Clone, Debug, Default, Args)]
+pub(super) struct DetectionArguments {
+    /// Measure detectors on labelled images: a folder of images with YOLO or VOC labels, a COCO file or its folder, a
+    /// frame with boxes, or a folder of frames.
+    #[arg(long, value_name = "FOLDER", help_heading = HEADING, conflicts_with_all = ["subjects", "methods", "variants", "config", "calipers"])]
+    pub(super) detection: Option<PathBuf>,
+    /// A model to measure (ONNX), or `built-in`; may be repeated. Default: built-in, where no --boxes are given.
+    #[arg(long = "model", value_name = "FILE", value_parser = parse_model, requires = "detection", help_heading = HEADING)]
+    models: Vec<Model>,
+    /// Boxes that another program found in these images: a COCO result list, a COCO file with scores, or a folder with a
+    /// YOLO or VOC file for each image; may be repeated.
+    #[arg(long, value_name = "FILE|FOLDER", requires = "detection", help_heading = HEADING)]
+    boxes: Vec<PathBuf>,
+    /// Which class of a model or of a box file is an apple; once for all, or once for each: models first, then boxes.
+    #[arg(long = "class", value_name = "NAME|N", value_parser = parse_class, requires = "detection", help_heading = HEADING)]
+    classes: Vec<ClassChoice>,
+    /// Which class of the labels is an apple. Default: all of them.
+    #[arg(long, value_name = "NAME|N", value_parser = parse_class, requires = "detection", help_heading = HEADING)]
+    label_class: Option<ClassChoice>,
+    /// Labels of this name or class neither count nor punish, such as reference balls; `*` at its end stands for
+    /// anything. May be repeated.
+    #[arg(long, value_name = "NAME", requires = "detection", help_heading = HEADING)]
+    ignore_label: Vec<String>,
+    /// Score at which recall, precision and further detections are counted.
+    #[arg(long, value_name = "SCORE", default_value_t = 0.25, value_parser = parse_share, requires = "detection", help_heading = HEADING)]
+    threshold: f64,
+    /// Lowest score of a model's boxes: average precision needs unsure ones too.
+    #[arg(long, value_name = "SCORE", default_value_t = 0.01, value_parser = parse_share, requires = "detection", help_heading = HEADING)]
+    lowest_score: f64,
+    #[command(flatten)]
+    settings: DetectorSettings,
+}
+
+/// The file with the pictures of the worst images of the detector of this number, counted from 1.
+pub(super) fn sheet_name(number: usize) -> String {
+    format!("worst-{number}.png")
+}
+
+fn is_sheet(name: &str) -> bool {
+    let number = name
+        .strip_prefix("worst-")
+        .and_then(|n| n.strip_suffix(".png"));
+    number.is_some_and(|n| n.parse::<usize>().is_ok())
+}
+
+pub(super) fn run(
+    arguments: &EvaluateArguments,
+    labelled: &Path,
+    terminal: Terminal,
+) -> anyhow::Result<()> {
+    let own = &arguments.detection;
+    refuse_foreign(&arguments.out, DETECTION, DETECTION_SCHEMA)?;
+    let mut dataset = DetectionDataset::read(labelled, own.label_class.as_ref())?;
+    dataset
+        .images
+        .truncate(arguments.count.unwrap_or(usize::MAX));
+    for name in &own.ignore_label {
+        if dataset.ignore(name) == 0 {
+            bail!(
+                "--ignore-label {name}: no label of {} is named so; check the name",
+                dataset.name
+            );
+        }
+    }
+    say_what_is_left_out(&dataset, terminal);
+    let opened = own.open(&dataset, terminal)?;
+    let sources: Vec<DetectionSource<'_>> = opened.iter().map(Opened::source).collect();
+    let settings = DetectionSettings {
+        threshold: own.threshold,
+        seed: arguments.seed,
+    };
+    let bar = progress::bar(dataset.images.len());
+    let (evaluation, outcomes) =
+        evaluate_detections(&dataset, &sources, &settings, &|| bar.inc(1))?;
+    bar.finish_and_clear();
+    let output = OutputFolder::new(&arguments.out)?;
+    let sheets = sheets(&dataset, &evaluation, &outcomes, &output)?;
+    write_text(&output, DETECTION, &json(&evaluation)?)?;
+    write_text(&output, REPORT, &detection_page(&evaluation, &sheets)?)?;
+    output.publish_replacing(DETECTION, is_sheet)?;
+    say(
+        arguments,
+        &evaluation,
+        &detection_text::tables(&evaluation, terminal),
+    )
+}
+
+/// What is measured, ready to run.
+struct Opened {
+    name: String,
+    what: What,
+}
+
+enum What {
+    Detector(Box<dyn Detector>),
+    Boxes(Vec<Vec<Detection>>),
+}
+
+impl Opened {
+    fn source(&self) -> DetectionSource<'_> {
+        let name = self.name.clone();
+        match &self.what {
+            What::Detector(detector) => DetectionSource::Detector {
+                name,
+                detector: &**detector,
+            },
+            What::Boxes(detections) => DetectionSource::Boxes {
+                name,
+                detections: detections.clone(),
+            },
+        }
+    }
+}
+
+impl DetectionArguments {
+    /// Opens the models and reads the boxes, each under a name of its own.
+    fn open(&self, dataset: &DetectionDataset, terminal: Terminal) -> anyhow::Result<Vec<Opened>> {
+        let models = match (&*self.models, &*self.boxes) {
+            ([], []) => &[Model::BuiltIn][..],
+            (models, _) => models,
+        };
+        let count = models.len() + self.boxes.len();
+        if self.classes.len() > 1 && self.classes.len() != count {
+            bail!(
+                "--class stands {} times for {} with models and boxes; give it once for all, or once for each",
+                self.classes.len(),
+                plural(count, "source")
+            );
+        }
+        let class_of = |number: usize| {
+            self.classes.get(number).or(match &*self.classes {
+                [one] => Some(one),
+                _ => None,
+            })
+        };
+        let mut opened: Vec<Opened> = Vec::new();
+        for (number, model) in models.iter().enumerate() {
+            let (name, class) = (model_name(model), class_of(number).cloned());
+            let options = self.settings.options(model, class, Some(self.lowest_score));
+            let what = What::Detector(options.open()?);
+            opened.push(Opened { name, what });
+        }
+        for (number, path) in self.boxes.iter().enumerate() {
+            let detections = read_detections(path, dataset, class_of(models.len() + number))?;
+            let mut all = detections.iter().flatten().peekable();
+            if all.peek().is_some() && all.all(|d| d.score == 1.0) {
+                terminal.note(&format!(
+                    "{}: every box has the score 1; without scores there is one point of the curve only",
+                    path.display()
+                ));
+            }
+            opened.push(Opened {
+                name: stem(path),
+                what: What::Boxes(detections),
+            });
+        }
+        for (number, one) in opened.iter().enumerate() {
+            if opened[..number].iter().any(|other| other.name == one.name) {
+                bail!(
+                    "--model and --boxes: `{}` stands twice; give each once, and files names of their own",
+                    one.name
+                );
+            }
+        }
+        Ok(opened)
+    }
+}
+
+fn model_name(model: &Model) -> String {
+    match model {
+        Model::BuiltIn => BUILT_IN.to_owned(),
+        Model::File(path) => stem(path),
+    }
+}
+
+fn stem(path: &Path) -> String {
+    let name = if path.is_dir() {
+        path.file_name()
+    } else {
+        path.file_stem()
+    };
+    name.map_or_else(
+        || path.display().to_string(),
+        |name| name.to_string_lossy().into_owned(),
+    )
+}
+
+fn say_what_is_left_out(dataset: &DetectionDataset, terminal: Terminal) {
+    let name = &dataset.name;
+    if dataset.without_label_file > 0 {
+        terminal.note(&format!(
+            "{name}: {} without a label file, taken for background as YOLO has it",
+            plural(dataset.without_label_file, "image")
+        ));
+    }
+    if dataset.frames_without_boxes > 0 {
+        terminal.note(&format!(
+            "{name}: {} without boxes, left out",
+            plural(dataset.frames_without_boxes, "frame")
+        ));
+    }
+    if dataset.classes.len() > 1 {
+        terminal.note(&format!(
+            "{name}: labels of {} count alike; choose one by --label-class",
+            plural(dataset.classes.len(), "class").replace("classs", "classes")
+        ));
+    }
+}
+
+/// Writes the pictures of the worst images of each result; their names, empty where nothing is bad.
+fn sheets(
+    dataset: &DetectionDataset,
+    evaluation: &DetectionEvaluation,
+    outcomes: &[Vec<ImageOutcome>],
+    output: &OutputFolder,
+) -> anyhow::Result<Vec<String>> {
+    let mut names = Vec::new();
+    for (number, (result, outcomes)) in evaluation.results.iter().zip(outcomes).enumerate() {
+        let mut pictures = Vec::new();
+        for worst in &result.worst {
+            let pairs = dataset.images.iter().zip(outcomes);
+            for (image, outcome) in pairs.filter(|(image, _)| image.name == worst.image) {
+                pictures.push(SheetPicture {
+                    image: ColorImage::read(&image.path)?,
+                    marks: marks(outcome, evaluation.threshold),
+                    caption: format!("-{} +{} {}", worst.missed, worst.further, worst.image),
+                });
+            }
+        }
+        if pictures.is_empty() {
+            names.push(String::new());
+            continue;
+        }
+        let name = sheet_name(number + 1);
+        picture_sheet(&pictures, SHEET_COLUMNS, SHEET_SIDE)?.write(output.file(&name))?;
+        names.push(name);
+    }
+    Ok(names)
+}
+
+/// What was found in green, what is missing in yellow, what was found besides in red.
+fn marks(outcome: &ImageOutcome, threshold: f64) -> Vec<BoxMark> {
+    let detected = |kind| {
+        move |d: Detection| BoxMark {
+            bounds: d.to_pixel_box(String::new()),
+            kind,
+            caption: format!("{:.2}", d.score),
+        }
+    };
+    let missed = |label: Label| {
+        let [x_min, y_min, x_max, y_max] = label.edges;
+        BoxMark {
+            bounds: PixelBox {
+                name: String::new(),
+                x_min,
+                y_min,
+                x_max,
+                y_max,
+                score: 1.0,
+            },
+            kind: BoxKind::Missed,
+            caption: String::new(),
+        }
+    };
+    let hits = outcome
+        .hits(threshold)
+        .into_iter()
+        .map(detected(BoxKind::Found));
+    let further = outcome
+        .further(threshold)
+        .into_iter()
+        .map(detected(BoxKind::Further));
+    let missed = outcome.missed(threshold).into_iter().map(missed);
+    hits.chain(missed).chain(further).collect()
+}

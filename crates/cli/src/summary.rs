@@ -21,29 +21,33 @@ pub(crate) fn summary(records: &[Record]) -> String {
         let reasons = reasons
             .iter()
             .map(|(name, count)| format!("{count} {name}"));
-        text += &format!(" ({})", reasons.collect::<Vec<_>>().join(", "));
+        text = format!("{text} ({})", reasons.collect::<Vec<_>>().join(", "));
     }
     text + &detected(records)
 }
 
 /// What detectors found and what depth made of it; empty where all boxes were given.
 fn detected(records: &[Record]) -> String {
-    let detections = || records.iter().filter_map(|record| record.detection.as_ref());
+    let detections = || {
+        records
+            .iter()
+            .filter_map(|record| record.detection.as_ref())
+    };
     if detections().next().is_none() {
         return String::new();
     }
     let sum = |count: fn(&DetectionRecord) -> usize| detections().map(count).sum::<usize>();
-    let mut text = format!(
+    let counts = format!(
         "; {}, {} merged, {} marked",
         plural(sum(|d| d.detections), "detection"),
         sum(|d| d.merged),
         sum(|d| d.marked)
     );
     let by_depth = sum(|d| d.by_depth);
-    if by_depth > 0 {
-        text += &format!(", {by_depth} more found in depth");
+    if by_depth == 0 {
+        return counts;
     }
-    text
+    format!("{counts}, {by_depth} more found in depth")
 }
 
 /// `count` and its noun.

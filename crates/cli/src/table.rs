@@ -58,9 +58,7 @@ const FOUND_COLUMNS: &[Column] = &[
     word("found by", |p| {
         Some(p.pixel_box.found?.found_by.name().to_owned())
     }),
-    word("mark", |p| {
-        Some(p.pixel_box.found?.mark.name().to_owned())
-    }),
+    word("mark", |p| Some(p.pixel_box.found?.mark.name().to_owned())),
 ];
 
 /// What a transform to the robot adds.
@@ -272,7 +270,10 @@ pub(crate) mod tests {
             merged: None,
         });
         let text = table(&record, plain);
-        assert!(text.contains("mark") && text.contains("too_small"), "{text}");
+        assert!(
+            text.contains("mark") && text.contains("too_small"),
+            "{text}"
+        );
         assert!(text.contains("implausible"), "{text}");
     }
 

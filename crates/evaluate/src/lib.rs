@@ -79,8 +79,8 @@ pub use calipers::{
 };
 pub use comparison::{Comparison, compare};
 pub use depth_check::{
-    DepthCheckResult, FixedDetector, MarkCounts, MergeCounts, SearchCounts,
-    measure_boxed_frame, measure_depth_checks,
+    DepthCheckResult, FixedDetector, MarkCounts, MergeCounts, SearchCounts, measure_boxed_frame,
+    measure_depth_checks,
 };
 pub use detection::{
     AtThreshold, BestF1, COCO_SIZES, Curve, CurvePoint, DETECTION_SCHEMA, DatasetRecord,

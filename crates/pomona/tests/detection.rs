@@ -72,9 +72,8 @@ fn a_frame_without_boxes_gets_the_answers_of_one_with_them() {
     let detection = record.detection.as_ref().unwrap();
     assert_eq!(detection.detections, truth.apples.len());
     assert_eq!(detection.merged, 0);
-    let plausible = |p: &&pomona::Pick| {
-        p.pixel_box.found.is_some_and(|f| f.mark == Mark::Plausible)
-    };
+    let plausible =
+        |p: &&pomona::Pick| p.pixel_box.found.is_some_and(|f| f.mark == Mark::Plausible);
     let plausible = record.picks.iter().filter(plausible).count();
     assert!(
         plausible * 10 >= truth.apples.len() * 9,
@@ -88,7 +87,10 @@ fn a_frame_without_boxes_gets_the_answers_of_one_with_them() {
     assert!(given.detection.is_none());
     for (a, b) in record.picks.iter().zip(&given.picks) {
         if a.status != Status::Implausible {
-            assert_eq!((a.status, &a.apple, a.direction), (b.status, &b.apple, b.direction));
+            assert_eq!(
+                (a.status, &a.apple, a.direction),
+                (b.status, &b.apple, b.direction)
+            );
         }
     }
     assert!(record.picks.iter().any(|p| p.status == Status::Picked));

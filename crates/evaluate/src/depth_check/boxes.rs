@@ -85,11 +85,7 @@ pub(super) fn make(kind: Kind, frame: &Frame, apples: &[AppleTruth], seed: u64) 
                 misplaced(kind, frame, truth, apples, &mut draw)?
             }
         };
-        Some(Made {
-            detection,
-            group,
-
-        })
+        Some(Made { detection, group })
     })
     .collect()
 }

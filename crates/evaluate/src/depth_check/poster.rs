@@ -20,7 +20,10 @@ pub(super) fn with_posters(frame: &Frame, boxes: &[Made], seed: u64) -> Frame {
     let original = depth.clone();
     for made in boxes {
         let b = &made.detection;
-        let (u, v) = (f64::midpoint(b.x_min, b.x_max), f64::midpoint(b.y_min, b.y_max));
+        let (u, v) = (
+            f64::midpoint(b.x_min, b.x_max),
+            f64::midpoint(b.y_min, b.y_max),
+        );
         let (a, c) = (draw.between(-TILT, TILT), draw.between(-TILT, TILT));
         let Some(reading) = original.get(u as usize, v as usize) else {
             continue;
@@ -37,7 +40,10 @@ pub(super) fn with_posters(frame: &Frame, boxes: &[Made], seed: u64) -> Frame {
                     continue;
                 }
                 // The plane through the middle with slopes a and c; a tilt of a ray is small beside it.
-                let (dx, dy) = ((x as f64 - u) / camera.fx * z, (y as f64 - v) / camera.fy * z);
+                let (dx, dy) = (
+                    (x as f64 - u) / camera.fx * z,
+                    (y as f64 - v) / camera.fy * z,
+                );
                 let plane = z + a * dx + c * dy + NOISE_M * draw.normal();
                 let reading = (plane / camera.depth_scale).round();
                 depth.readings[i] = reading.clamp(1.0, f64::from(u16::MAX)) as u16;

@@ -8,8 +8,8 @@ use crate::robust::{Noise, Optics};
 use nalgebra::{Matrix4, Point3, Vector3, Vector4};
 use pomona_cloud::{DepthImage, PixelBox, PixelWindow};
 use pomona_fit::{
-    CenterSide, PlaneEstimator, Points, RadiusPrior, RadiusWindow, Refusing, SphereEstimator, SphereRefit,
-    sphere_weighted,
+    CenterSide, PlaneEstimator, Points, RadiusPrior, RadiusWindow, Refusing, SphereEstimator,
+    SphereRefit, sphere_weighted,
 };
 use pomona_geometry::{Plane, Sphere};
 use pomona_ransac::{FixedCount, InlierCount, Msac, Ransac};
@@ -196,12 +196,7 @@ impl<'a> Looker<'a> {
 
     /// The first of a few spheres that could be an apple, or why none could. Whatever was taken for
     /// one and is none, a leaf before the apple, is left out when the next is looked for.
-    fn apple(
-        &self,
-        bounds: &PixelBox,
-        samples: &mut Samples,
-        rng: &mut ChaCha8Rng,
-    ) -> Look {
+    fn apple(&self, bounds: &PixelBox, samples: &mut Samples, rng: &mut ChaCha8Rng) -> Look {
         let radii = (self.config.radius_min_m, self.config.radius_max_m);
         samples.all_left();
         let mut first = Look::of(Mark::NotRound);
@@ -358,9 +353,7 @@ impl<'a> Looker<'a> {
         for _ in 0..2 {
             let mut near = std::mem::take(&mut samples.near);
             near.clear();
-            let of_it = |i: &usize| {
-                sphere.signed_distance(&samples.point(*i)).abs() <= threshold
-            };
+            let of_it = |i: &usize| sphere.signed_distance(&samples.point(*i)).abs() <= threshold;
             near.extend((0..samples.len()).filter(of_it));
             let weighted = near.iter().map(|&i| (samples.point(i), weight));
             let mut refined = sphere_weighted(weighted.clone(), &sphere, Some(wide));
@@ -389,8 +382,8 @@ impl<'a> Looker<'a> {
         }
         let half = 0.5 * (self.config.radius_max_m - self.config.radius_min_m);
         information[(3, 3)] += half.powi(-2);
-        information
-            .try_inverse()
-            .map_or(half, |covariance| covariance[(3, 3)].max(0.0).sqrt().min(half))
+        information.try_inverse().map_or(half, |covariance| {
+            covariance[(3, 3)].max(0.0).sqrt().min(half)
+        })
     }
 }

@@ -55,6 +55,9 @@ pub struct DetectionRecord {
     /// Why a runtime that was preferred did not serve.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fallback_reason: Option<String>,
+    /// What was assumed about the model.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub notes: Vec<String>,
     /// Boxes that the detector gave.
     pub detections: usize,
     /// Boxes that were joined into others.
@@ -93,13 +96,17 @@ impl DetectionRecord {
             version: runtime.map(|r| r.version.clone()),
             library: runtime.and_then(|r| r.library.clone()),
             fallback_reason: runtime.and_then(|r| r.fallback_reason.clone()),
+            notes: report.notes.clone(),
             ..Self::default()
         }
     }
 
     pub(super) fn count(&mut self, candidates: &[Candidate]) {
         let number = |wanted: &dyn Fn(&Candidate) -> bool| {
-            candidates.iter().filter(|candidate| wanted(candidate)).count()
+            candidates
+                .iter()
+                .filter(|candidate| wanted(candidate))
+                .count()
         };
         self.merged = candidates.iter().map(|c| c.parts - 1).sum();
         self.marked = number(&|c| c.look.mark.refuses());

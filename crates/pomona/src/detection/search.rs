@@ -53,9 +53,9 @@ pub(super) fn search(frame: &Frame, looker: &Looker<'_>, known: &[Candidate]) ->
                 look = looker.look(&bounds, &mut rng, samples);
             }
             let sphere = look.sphere.filter(|_| look.mark == Mark::Plausible)?;
-            let free = taken
-                .iter()
-                .all(|other| (other.center - sphere.center).norm() > sphere.radius.max(other.radius));
+            let free = taken.iter().all(|other| {
+                (other.center - sphere.center).norm() > sphere.radius.max(other.radius)
+            });
             let round = look.roundness.is_some_and(|r| r.least >= ROUND);
             let coverage = look.tally.coverage();
             if !(free && round && coverage >= looker.config.search_coverage) {
@@ -76,9 +76,10 @@ pub(super) fn search(frame: &Frame, looker: &Looker<'_>, known: &[Candidate]) ->
         let Some(sphere) = candidate.look.sphere else {
             continue;
         };
-        let distinct = apart.iter().filter_map(|c| c.look.sphere).all(|other| {
-            (other.center - sphere.center).norm() > sphere.radius.max(other.radius)
-        });
+        let distinct = apart
+            .iter()
+            .filter_map(|c| c.look.sphere)
+            .all(|other| (other.center - sphere.center).norm() > sphere.radius.max(other.radius));
         if distinct {
             apart.push(candidate);
         }
@@ -132,7 +133,9 @@ fn places(looker: &Looker<'_>) -> Vec<PixelBox> {
         Some(f64::from(reading) * scale)
     };
     // The grid is as fine as the farthest apples need; nearer ones use every so manieth place of it.
-    let fine = (STEP * radius / looker.optics.pixel_m(config.range_max_m)).floor().max(2.0);
+    let fine = (STEP * radius / looker.optics.pixel_m(config.range_max_m))
+        .floor()
+        .max(2.0);
     let mut places = Vec::new();
     for (row, v) in (0..depth.height).step_by(fine as usize).enumerate() {
         for (column, u) in (0..depth.width).step_by(fine as usize).enumerate() {

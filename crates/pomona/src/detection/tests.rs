@@ -22,6 +22,7 @@ impl Detector for Fixed {
                 library: None,
                 fallback_reason: None,
             }),
+            notes: vec!["none".to_owned()],
         }
     }
 }
@@ -109,7 +110,11 @@ fn mark(surfaces: &[Surface<'_>], detection: Detection) -> Mark {
 #[test]
 fn an_apple_is_plausible_and_its_sphere_is_right() {
     let frame = frame(&[&ball(0.02, -0.01, 0.8, 0.038)]);
-    let found = find(&frame, vec![about(0.02, -0.01, 0.8, 0.038)], &Config::default());
+    let found = find(
+        &frame,
+        vec![about(0.02, -0.01, 0.8, 0.038)],
+        &Config::default(),
+    );
     assert_eq!(found.boxes[0].found.mark, Mark::Plausible);
     assert_eq!(found.plausible().count(), 1);
     let sphere = found.boxes[0].sphere.unwrap();
@@ -172,9 +177,15 @@ fn parts_of_one_apple_become_its_box_and_neighbours_stay_apart() {
     let found = find(&frame, vec![left, second, right], &Config::default());
     assert_eq!(found.boxes.len(), 2, "{found:?}");
     let joint = &found.boxes[0];
-    assert_eq!((joint.bounds.name.as_str(), joint.bounds.score), ("0+2", 0.8));
+    assert_eq!(
+        (joint.bounds.name.as_str(), joint.bounds.score),
+        ("0+2", 0.8)
+    );
     assert_eq!(joint.found.merged, Some(2));
-    assert_eq!((joint.bounds.x_min, joint.bounds.x_max), (first.x_min, first.x_max));
+    assert_eq!(
+        (joint.bounds.x_min, joint.bounds.x_max),
+        (first.x_min, first.x_max)
+    );
     assert_eq!(found.record.merged, 1);
 
     // A box about both is no better box of either.
@@ -208,9 +219,16 @@ fn a_search_in_depth_finds_what_the_colour_misses() {
     assert_eq!(find(&frame, seen.clone(), &config).boxes.len(), 1);
     config.detection.depth_search = true;
     let found = find(&frame, seen, &config);
-    assert_eq!((found.boxes.len(), found.record.by_depth), (2, 1), "{found:?}");
+    assert_eq!(
+        (found.boxes.len(), found.record.by_depth),
+        (2, 1),
+        "{found:?}"
+    );
     let more = &found.boxes[1];
-    assert_eq!((more.found.found_by, more.bounds.name.as_str()), (FoundBy::Depth, "d0"));
+    assert_eq!(
+        (more.found.found_by, more.bounds.name.as_str()),
+        (FoundBy::Depth, "d0")
+    );
     let center = more.sphere.unwrap().center;
     assert!((center - Point3::new(b.0, b.1, b.2)).norm() < 0.003);
     assert!(found.record.timing_ms.depth_search.is_some());
@@ -232,7 +250,10 @@ fn refused_boxes_stay_in_the_record_and_are_not_picked() {
     let detection = record.detection.clone().unwrap();
     assert_eq!((detection.name.as_str(), detection.marked), ("fixed", 1));
     let text = serde_json::to_string(&record).unwrap();
-    assert_eq!(serde_json::from_str::<crate::Record>(&text).unwrap(), record);
+    assert_eq!(
+        serde_json::from_str::<crate::Record>(&text).unwrap(),
+        record
+    );
 
     config.detection.pick_marked = true;
     assert_ne!(pick(&config).picks[0].status, Status::Implausible);
@@ -244,7 +265,16 @@ fn refused_boxes_stay_in_the_record_and_are_not_picked() {
 #[test]
 fn whatever_a_detector_says_is_no_panic() {
     let frame = frame(&[&ball(0.0, 0.0, 0.8, 0.038)]);
-    let numbers = [f64::NAN, f64::INFINITY, -1e300, -5.0, 0.0, 160.0, 319.5, 1e9];
+    let numbers = [
+        f64::NAN,
+        f64::INFINITY,
+        -1e300,
+        -5.0,
+        0.0,
+        160.0,
+        319.5,
+        1e9,
+    ];
     let mut detections = Vec::new();
     for x_min in numbers {
         for x_max in numbers {
@@ -281,5 +311,8 @@ fn a_detector_that_fails_is_an_error_that_names_the_frame() {
     }
     let error = find_apples(&frame(&[]), &Broken, &Config::default()).unwrap_err();
     let message = error.to_string();
-    assert!(message.contains("'test'") && message.contains("no signal"), "{message}");
+    assert!(
+        message.contains("'test'") && message.contains("no signal"),
+        "{message}"
+    );
 }

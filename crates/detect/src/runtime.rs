@@ -12,6 +12,8 @@
 
 mod apart;
 #[cfg(feature = "embedded")]
+mod complete;
+#[cfg(feature = "embedded")]
 mod embedded;
 mod file_kind;
 mod idle;

@@ -5,7 +5,7 @@
 mod support;
 
 use pomona_detect::{Element, ModelSource, Network, RuntimeChoice, Tensor, open_network};
-use support::onnx::{self, Axis, F16, F32, I64, Model};
+use support::onnx::{self, Attribute, Axis, F16, F32, I64, Model};
 use support::{has_onnx_runtime, largest_difference, noise, open_bytes, runtimes, shared};
 
 /// Opens a model in both runtimes and gives the largest difference between their outputs for noise over
@@ -81,10 +81,7 @@ fn whole_numbers_come_out_as_f32() {
         "ArgMax",
         &["output"],
         &["best"],
-        &[
-            ("axis", onnx::Attribute::Int(1)),
-            ("keepdims", onnx::Attribute::Int(0)),
-        ],
+        &[("axis", Attribute::Int(1)), ("keepdims", Attribute::Int(0))],
     );
     model.port(12, "best", I64, &[1, 8, 8].map(Axis::Fixed));
     let folder = tempfile::tempdir().unwrap();
@@ -97,6 +94,53 @@ fn whole_numbers_come_out_as_f32() {
             let score = |channel: usize| scores[channel * 64 + cell];
             assert!((0..6).all(|channel| score(channel) <= score(best as usize)));
         }
+    }
+}
+
+/// A convolution with a kernel of 3 and pooling by 2 that have these attributes and no others.
+fn sparse(convolution: &[(&str, Attribute)], pooling: &[(&str, Attribute)]) -> Vec<u8> {
+    let mut model = Model::new(4);
+    model.input("images", &[1, 3, 16, 16].map(Axis::Fixed));
+    model.weights("kernel", &[6, 3, 3, 3], 0.2);
+    model.node("Conv", &["images", "kernel"], &["convolved"], convolution);
+    model.node("MaxPool", &["convolved"], &["output"], pooling);
+    model.output("output", &["n", "c", "h", "w"].map(Axis::Open));
+    model.to_bytes()
+}
+
+#[test]
+fn attributes_that_are_left_out_are_what_onnx_says() {
+    let kernel = ("kernel_shape", Attribute::Ints(&[2, 2]));
+    let same = ("auto_pad", Attribute::Text("SAME_UPPER"));
+    let step = ("strides", Attribute::Ints(&[2, 2]));
+    let bare = sparse(&[], &[kernel]);
+    let padded = sparse(&[same, step], &[kernel, same]);
+    let half = sparse(&[("pads", Attribute::Ints(&[1; 4]))], &[kernel, step]);
+    for bytes in [bare, padded, half] {
+        let difference = difference(&bytes, 0, 1.0);
+        assert!(
+            difference.is_none_or(|difference| difference < 1e-5),
+            "{difference:?}"
+        );
+    }
+}
+
+#[test]
+fn padding_that_the_embedded_runtime_would_misread_is_refused() {
+    let kernel = ("kernel_shape", Attribute::Ints(&[2, 2]));
+    let lower = ("auto_pad", Attribute::Text("SAME_LOWER"));
+    // As much before as behind: lower and upper are the same.
+    let even = difference(&sparse(&[lower], &[kernel]), 0, 1.0);
+    assert!(even.is_none_or(|difference| difference < 1e-5), "{even:?}");
+    let folder = tempfile::tempdir().unwrap();
+    for bytes in [
+        sparse(&[], &[kernel, lower]),
+        sparse(&[lower, ("strides", Attribute::Ints(&[2, 2]))], &[kernel]),
+    ] {
+        let error = open_bytes(folder.path(), &bytes, &RuntimeChoice::Embedded)
+            .err()
+            .unwrap();
+        assert!(error.to_string().contains("SAME_LOWER"), "{error}");
     }
 }
 

@@ -1,4 +1,5 @@
 use super::apart::apart;
+use super::complete::completed;
 use super::idle::Idle;
 use super::model::Model;
 use super::{matched, to_u8, unreadable};
@@ -35,16 +36,16 @@ impl Embedded {
         fallback_reason: Option<String>,
     ) -> Result<Self, DetectError> {
         let external = std::mem::take(&mut model.external);
-        let bytes = std::mem::replace(&mut model.bytes, Cow::Borrowed(&[])).into_owned();
+        let bytes = std::mem::replace(&mut model.bytes, Cow::Borrowed(&[]));
+        let refuse = |said: String| model.refused(NAME, "network", &said);
+        let bytes = completed(&bytes).map_err(refuse)?;
         let load = || {
             let mut options = rten::ModelOptions::with_all_ops();
-            options.prepack_weights(true);
             for (location, bytes) in &external {
                 options.external_data(location, bytes.to_vec());
             }
             options.load(bytes)
         };
-        let refuse = |said: String| model.refused(NAME, "network", &said);
         let network = apart(load)
             .map_err(refuse)?
             .map_err(|error| refuse(error.to_string()))?;
@@ -187,4 +188,18 @@ fn read(model: &str, port: &Port, value: Value) -> Result<Tensor, DetectError> {
         shape,
         data,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_report_names_the_release_that_is_built_in() {
+        let manifest = concat!(env!("CARGO_MANIFEST_DIR"), "/../../Cargo.toml");
+        let manifest = std::fs::read_to_string(manifest).unwrap();
+        let line = manifest.lines().find(|line| line.starts_with("rten = "));
+        let release = VERSION.strip_prefix("rten ").unwrap();
+        assert!(line.unwrap().contains(&format!("version = \"{release}\"")));
+    }
 }

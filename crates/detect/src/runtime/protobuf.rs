@@ -15,6 +15,8 @@ pub(super) struct Field<'a> {
     pub(super) value: Value<'a>,
     /// Where its value begins in the file.
     pub(super) offset: usize,
+    /// All of it, the key included.
+    pub(super) raw: &'a [u8],
 }
 
 /// What a field holds.
@@ -68,7 +70,7 @@ impl<'a> Fields<'a> {
     }
 
     fn field(&mut self) -> Result<Field<'a>, Damage> {
-        let start = self.offset;
+        let (start, bytes) = (self.offset, self.bytes);
         let key = self.number()?;
         let value_of = |fields: &mut Self| match key & 7 {
             0 => fields.number().map(Value::Number),
@@ -94,6 +96,7 @@ impl<'a> Fields<'a> {
             number,
             value,
             offset: self.offset - length,
+            raw: &bytes[..self.offset - start],
         })
     }
 }

@@ -1,4 +1,5 @@
 use crate::apple_cloud::{AppleClouds, CloudChoice};
+use crate::detector::DetectorArguments;
 use crate::fuse;
 #[cfg(feature = "mcap")]
 use crate::output_folder::RECORDING;
@@ -11,8 +12,12 @@ use crate::terminal::{self, Terminal};
 use crate::{picture, progress};
 use anyhow::{anyhow, bail};
 use clap::Args;
-use pomona::{ApproachConfig, Outcome, Picker, Record, Robot, RobotFromCamera, RobotPlan, ros};
+use pomona::{
+    ApproachConfig, Outcome, Picker, Record, Robot, RobotFromCamera, RobotPlan, find_apples, ros,
+};
 use pomona_cloud::{Frame, read_boxes};
+use pomona_detect::Detector;
+use std::cell::OnceCell;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -22,6 +27,7 @@ Examples:
   pomona pick frames/a --out out                      out/picks.json, picture.png, apple-N.ply
   pomona pick frames/a frames/b --out out             out/a/... and out/b/...
   pomona pick frames/a --boxes detections.json --out out
+  pomona pick frames/a --detect --model mine.onnx --out out
   pomona pick frames/a --transform robot_from_camera.json --out out
   pomona pick frames/a --transform robot_from_camera.json --robot robot.toml --ros --out out
   pomona pick frames/a --radius-max-mm 60 --set paper.shell_outer=2.5 --out out
@@ -31,8 +37,9 @@ Examples:
 With --fuse, the frames show one tree. A frame's pose is robot_from_camera.json in its folder, else that of \
 --transform: a camera at rest.
 
-A frame is a folder with color.png (or .jpg), depth.png (16 bit, registered to colour), camera.json and boxes \
-(boxes.xml VOC, boxes.json COCO or boxes.txt YOLO).
+A frame is a folder with color.png (or .jpg), depth.png (16 bit, registered to colour), camera.json and, where \
+they are known, boxes (boxes.xml VOC, boxes.json COCO or boxes.txt YOLO). Without boxes a detector finds the apples, \
+and depth marks those that are none: see `detection` in `pomona config`.
 
 In the table, `angle` is that of the direction in the picture (0 right, 90 up) and `away` that out of the image \
 plane (positive away from the camera).
@@ -56,6 +63,9 @@ pub(crate) struct PickArguments {
     /// Boxes of the apples (VOC, COCO or YOLO) in place of the frame's own; for one frame.
     #[arg(long, value_name = "FILE")]
     boxes: Option<PathBuf>,
+    /// Let the detector find the apples, also where a frame has boxes.
+    #[arg(long, conflicts_with = "boxes")]
+    detect: bool,
     /// Seed of the random numbers.
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u64,
@@ -93,6 +103,8 @@ pub(crate) struct PickArguments {
     #[arg(long, value_name = "WHICH", default_value = "best")]
     clouds: CloudChoice,
     #[command(flatten)]
+    detector: DetectorArguments,
+    #[command(flatten)]
     settings: SettingsArguments,
 }
 
@@ -111,6 +123,7 @@ pub(crate) fn run(arguments: &PickArguments, terminal: Terminal) -> anyhow::Resu
             .as_ref()
             .map(|path| Robot::new(ApproachConfig::read(path)?))
             .transpose()?,
+        detector: OnceCell::new(),
         arguments,
         terminal,
     };
@@ -247,6 +260,8 @@ struct Run<'a> {
     picker: Picker,
     transform: Option<RobotFromCamera>,
     robot: Option<Robot>,
+    /// Opened when the first frame needs it.
+    detector: OnceCell<Box<dyn Detector>>,
     arguments: &'a PickArguments,
     terminal: Terminal,
 }
@@ -262,6 +277,36 @@ impl Run<'_> {
         Ok(poses.into_iter().map(Some).collect())
     }
 
+    /// The detector that the command line asks for, the same for all frames.
+    fn detector(&self, frame: &Frame) -> anyhow::Result<&dyn Detector> {
+        if let Some(detector) = self.detector.get() {
+            return Ok(&**detector);
+        }
+        let opened = self.arguments.detector.open().map_err(|e| {
+            if self.arguments.detect {
+                return anyhow!(e);
+            }
+            anyhow!(
+                "frame '{}' has no boxes, and the detector cannot be used: {e}; or put boxes.xml, boxes.json or \
+                 boxes.txt into its folder, or give --boxes FILE",
+                frame.id
+            )
+        })?;
+        Ok(&**self.detector.get_or_init(|| opened))
+    }
+
+    /// The answers for a frame's boxes, or for those that the detector finds.
+    fn answer(&self, frame: &Frame, pose: Option<&RobotFromCamera>) -> anyhow::Result<Outcome> {
+        let seed = self.arguments.seed;
+        if frame.boxes.is_some() && !self.arguments.detect {
+            return Ok(self.picker.pick(frame, seed, pose)?);
+        }
+        let detector = self.detector(frame)?;
+        let found = find_apples(frame, detector, self.picker.config())?;
+        log::info!("{}: {:?}", frame.id, found.record);
+        Ok(self.picker.pick_found(frame, &found, seed, pose)?)
+    }
+
     /// Answers one frame and writes its files, all or none.
     fn frame(&self, job: &Job, pose: Option<&RobotFromCamera>) -> anyhow::Result<Record> {
         let start = Instant::now();
@@ -271,7 +316,7 @@ impl Run<'_> {
         }
         log::info!("{}: read in {:.0?}", frame.id, start.elapsed());
         let start = Instant::now();
-        let mut outcome = self.picker.pick(&frame, self.arguments.seed, pose)?;
+        let mut outcome = self.answer(&frame, pose)?;
         log::info!("{}: picked in {:.0?}", frame.id, start.elapsed());
         let start = Instant::now();
         let plan = match (&self.robot, pose) {

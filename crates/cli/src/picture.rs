@@ -44,7 +44,12 @@ fn mark<'a>(pick: &Pick, evidence: &'a Evidence, robot: Option<&RobotView<'_>>) 
         mark.caption = Some(format!("r {:.0} mm", apple.radius * 1000.0));
     }
     if pick.status != Status::Picked {
-        mark.refused = Some(pick.status.name().replace('_', " "));
+        // Depth's own word says more than that it refuses.
+        let word = match pick.pixel_box.found {
+            Some(found) if pick.status == Status::Implausible => found.mark.name(),
+            _ => pick.status.name(),
+        };
+        mark.refused = Some(word.replace('_', " "));
     }
     if let Some(robot) = robot {
         robot.add(pick, &mut mark);

@@ -1,4 +1,4 @@
-use pomona::{Record, Status};
+use pomona::{DetectionRecord, Record, Status};
 
 /// How many apples were picked and refused, and why, in one line without a line break.
 pub(crate) fn summary(records: &[Record]) -> String {
@@ -16,14 +16,38 @@ pub(crate) fn summary(records: &[Record]) -> String {
     reasons.sort_by_key(|&(name, count)| (std::cmp::Reverse(count), name));
     let refused: usize = reasons.iter().map(|(_, count)| count).sum();
     let picked = picks().count() - refused;
-    let counts = format!("{apples} in {frames}: {picked} picked, {refused} refused");
-    if reasons.is_empty() {
+    let mut text = format!("{apples} in {frames}: {picked} picked, {refused} refused");
+    if !reasons.is_empty() {
+        let reasons = reasons
+            .iter()
+            .map(|(name, count)| format!("{count} {name}"));
+        text = format!("{text} ({})", reasons.collect::<Vec<_>>().join(", "));
+    }
+    text + &detected(records)
+}
+
+/// What detectors found and what depth made of it; empty where all boxes were given.
+fn detected(records: &[Record]) -> String {
+    let detections = || {
+        records
+            .iter()
+            .filter_map(|record| record.detection.as_ref())
+    };
+    if detections().next().is_none() {
+        return String::new();
+    }
+    let sum = |count: fn(&DetectionRecord) -> usize| detections().map(count).sum::<usize>();
+    let counts = format!(
+        "; {}, {} merged, {} marked",
+        plural(sum(|d| d.detections), "detection"),
+        sum(|d| d.merged),
+        sum(|d| d.marked)
+    );
+    let by_depth = sum(|d| d.by_depth);
+    if by_depth == 0 {
         return counts;
     }
-    let reasons = reasons
-        .iter()
-        .map(|(name, count)| format!("{count} {name}"));
-    format!("{counts} ({})", reasons.collect::<Vec<_>>().join(", "))
+    format!("{counts}, {by_depth} more found in depth")
 }
 
 /// `count` and its noun.
@@ -51,6 +75,17 @@ mod tests {
         assert_eq!(
             summary(&[record(&statuses)]),
             "4 apples in 1 frame: 1 picked, 3 refused (2 no_depth, 1 no_branch)"
+        );
+        let mut found = record(&[Status::Implausible]);
+        found.detection = Some(DetectionRecord {
+            detections: 3,
+            merged: 2,
+            marked: 1,
+            ..DetectionRecord::default()
+        });
+        assert_eq!(
+            summary(&[found]),
+            "1 apple in 1 frame: 0 picked, 1 refused (1 implausible); 3 detections, 2 merged, 1 marked"
         );
         assert_eq!(summary(&[]), "0 apples in 0 frames: 0 picked, 0 refused");
     }

@@ -52,6 +52,15 @@ const COLUMNS: &[Column] = &[
     }),
 ];
 
+/// What a detector adds.
+const FOUND_COLUMNS: &[Column] = &[
+    number("score", |p| Some(format!("{:.2}", p.pixel_box.score))),
+    word("found by", |p| {
+        Some(p.pixel_box.found?.found_by.name().to_owned())
+    }),
+    word("mark", |p| Some(p.pixel_box.found?.mark.name().to_owned())),
+];
+
 /// What a transform to the robot adds.
 const ROBOT_COLUMNS: &[Column] = &[
     number("robot x mm", |p| Some(mm(p.robot.as_ref()?.center[0]))),
@@ -84,7 +93,17 @@ fn yaw(robot: &RobotRecord) -> String {
 pub(crate) fn table(record: &Record, terminal: Terminal) -> String {
     let has_robot = record.picks.iter().any(|p| p.robot.is_some());
     let robot = if has_robot { ROBOT_COLUMNS } else { &[] };
-    let columns: Vec<&Column> = COLUMNS.iter().chain(robot).chain(LAST_COLUMNS).collect();
+    let found = if record.detection.is_some() {
+        FOUND_COLUMNS
+    } else {
+        &[]
+    };
+    let columns: Vec<&Column> = COLUMNS
+        .iter()
+        .chain(found)
+        .chain(robot)
+        .chain(LAST_COLUMNS)
+        .collect();
     let rows: Vec<Vec<String>> = record
         .picks
         .iter()
@@ -155,7 +174,10 @@ fn padded(text: &str, width: usize, left: bool) -> String {
 pub(crate) mod tests {
     use super::*;
     use clap::ColorChoice;
-    use pomona::{AppleRecord, BoxRecord, FrameRecord, TimingRecord};
+    use pomona::{
+        AppleRecord, BoxRecord, DetectionRecord, FoundBy, FoundRecord, FrameRecord, Mark,
+        TimingRecord,
+    };
 
     /// A record with an apple of each status; a picked one points up.
     pub(crate) fn record(statuses: &[Status]) -> Record {
@@ -181,6 +203,7 @@ pub(crate) mod tests {
                     x_max: 3.0,
                     y_max: 4.0,
                     score: 1.0,
+                    found: None,
                 },
                 status,
                 apple: picked.then_some(apple),
@@ -208,6 +231,7 @@ pub(crate) mod tests {
                 id: "f".to_owned(),
                 frame_id: "camera".to_owned(),
             },
+            detection: None,
             picks: statuses.iter().enumerate().map(pick).collect(),
         }
     }
@@ -232,6 +256,25 @@ pub(crate) mod tests {
         );
         assert_eq!(lines[1].len(), lines[2].len());
         assert_eq!(lines[2].len(), lines[3].len());
+    }
+
+    #[test]
+    fn marks_stand_in_the_table_where_a_detector_found_the_boxes() {
+        let mut record = record(&[Status::Picked, Status::Implausible]);
+        let plain = Terminal::new(ColorChoice::Never);
+        assert!(!table(&record, plain).contains("mark"));
+        record.detection = Some(DetectionRecord::default());
+        record.picks[1].pixel_box.found = Some(FoundRecord {
+            found_by: FoundBy::Color,
+            mark: Mark::TooSmall,
+            merged: None,
+        });
+        let text = table(&record, plain);
+        assert!(
+            text.contains("mark") && text.contains("too_small"),
+            "{text}"
+        );
+        assert!(text.contains("implausible"), "{text}");
     }
 
     #[test]

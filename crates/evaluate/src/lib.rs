@@ -32,6 +32,7 @@
 //! - [`report_page`] and [`apples_csv`] are what `report.html` and `apples.csv` hold.
 //! - [`measure_calipers`] sets fitted radii beside measured diameters on real frames, and
 //!   aligns the apples of two frames of one tree.
+//! - [`measure_depth_checks`] asks what depth is worth to a detector's boxes: right and wrong ones, split ones, missing ones.
 //! - [`evaluate_detections`] measures detectors, and boxes of other programs, on the labels of a
 //!   [`DetectionDataset`]: precision over recall ([`Curve`]), recall by size, what is missed and what is found
 //!   besides, with intervals and paired differences.
@@ -50,6 +51,7 @@
 mod base;
 mod calipers;
 mod comparison;
+mod depth_check;
 mod detection;
 mod error;
 mod grouping;
@@ -76,6 +78,10 @@ pub use calipers::{
     CaliperRow, measure_calipers, read_calipers,
 };
 pub use comparison::{Comparison, compare};
+pub use depth_check::{
+    DepthCheckResult, FixedDetector, MarkCounts, MergeCounts, SearchCounts, measure_boxed_frame,
+    measure_depth_checks,
+};
 pub use detection::{
     AtThreshold, BestF1, COCO_SIZES, Curve, CurvePoint, DETECTION_SCHEMA, DatasetRecord,
     DetectionDataset, DetectionDifference, DetectionEvaluation, DetectionResult, DetectionSettings,

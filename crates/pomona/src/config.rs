@@ -1,4 +1,4 @@
-use crate::{FallbackConfig, FusionConfig, RobustConfig};
+use crate::{DetectionConfig, FallbackConfig, FusionConfig, RobustConfig};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 use thiserror::Error;
@@ -41,6 +41,8 @@ pub struct Config {
     pub paper: PaperConfig,
     /// Settings of the method `robust`.
     pub robust: RobustConfig,
+    /// Settings of what depth says about a detector's boxes.
+    pub detection: DetectionConfig,
     /// What is given in place of a direction that is refused.
     pub fallback: FallbackConfig,
     /// Settings of the fusion of several frames.
@@ -161,6 +163,7 @@ impl Config {
     pub fn validate(&self) -> Result<(), ConfigError> {
         self.paper.validate()?;
         self.robust.validate()?;
+        self.detection.validate()?;
         self.fusion.validate()
     }
 }
@@ -303,6 +306,14 @@ mod tests {
             ("[paper", "pomona.toml"),
             ("[fallback]\nkind = \"luck\"", "luck"),
             ("[fusion]\nmoved_rate = 0", "fusion.moved_rate"),
+            (
+                "[detection]\nradius_max_m = 0.001",
+                "detection.radius_max_m",
+            ),
+            (
+                "[detection]\nmerge_distance = nan",
+                "detection.merge_distance",
+            ),
         ] {
             let message = parse(text).unwrap_err().to_string();
             assert!(message.contains(part), "{text}: {message}");

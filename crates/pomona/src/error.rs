@@ -4,10 +4,10 @@ use thiserror::Error;
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum PickError {
-    /// The frame has no boxes, and nothing here finds apples.
+    /// The frame has no boxes, and no detector was asked for any.
     #[error(
         "frame '{frame}' has no boxes: put boxes.xml (VOC), boxes.json (COCO) or boxes.txt (YOLO) \
-         into its folder, or give --boxes FILE"
+         into its folder, give --boxes FILE, or let a detector find them"
     )]
     NoBoxes {
         /// The frame's id.
@@ -20,6 +20,14 @@ pub enum PickError {
         frame: String,
         /// What is wrong with it.
         source: Box<pomona_cloud::CloudError>,
+    },
+    /// The detector failed.
+    #[error("frame '{frame}': {source}")]
+    Detect {
+        /// The frame's id.
+        frame: String,
+        /// What it said.
+        source: Box<pomona_detect::DetectError>,
     },
     /// A setting makes no sense.
     #[error(transparent)]

@@ -25,6 +25,9 @@
 //!   pixels of its surface and of its branch) for pictures.
 //! - Each apple is worked on by itself, so the apples of a frame run in parallel;
 //!   the random numbers of one depend on (run seed, frame, apple) and nothing else.
+//! - [`find_apples`] finds the boxes where a frame has none: a `pomona_detect::Detector` sees them in the colour
+//!   image, depth marks those that show no apple and joins those that show the same one, and
+//!   [`Picker::pick_found`] takes it from there.
 //! - An apple without an answer is no error: it has a [`Status`] that says why, and what is
 //!   known stays in its record. Asked for in [`FallbackConfig`], a labelled way to come in stands beside the refusal.
 //! - [`fuse`] combines the records of several frames of one tree, each with its camera's pose: one entry for
@@ -46,7 +49,7 @@
 //!
 //! # Not here
 //!
-//! Finding apples in the colour image (the frame's boxes say where they are), drawing,
+//! Networks that find apples in a colour image (`pomona-detect`, or the frame's boxes say where they are), drawing,
 //! argument parsing.
 //!
 //! # References
@@ -55,6 +58,7 @@
 //! Based on 3D Vision", Agriculture 12(8), 1170, doi 10.3390/agriculture12081170.
 
 mod config;
+mod detection;
 mod error;
 mod fallback;
 mod fusion;
@@ -71,6 +75,10 @@ mod seed;
 mod surroundings;
 
 pub use config::{Config, ConfigError, Method, PaperConfig};
+pub use detection::{
+    DetectionConfig, DetectionRecord, DetectionTiming, Found, FoundBox, FoundBy, FoundRecord, Mark,
+    find_apples,
+};
 pub use error::PickError;
 pub use fallback::{DirectionSource, FallbackConfig, FallbackKind};
 pub use fusion::{

@@ -1,10 +1,10 @@
 use crate::{
-    AppleRecord, BoxRecord, BranchRecord, Config, FallbackRecord, FrameRecord, Method, Pick,
+    AppleRecord, BoxRecord, BranchRecord, Config, FallbackRecord, Found, FrameRecord, Method, Pick,
     PickError, PlanRecord, Record, RobotRecord, SCHEMA, Status, TimingRecord, fallback, paper,
     robust, seed::apple_rng, surroundings::window_of,
 };
 use nalgebra::{Point3, Vector3};
-use pomona_cloud::{DepthPoints, Frame, PixelBox, PixelWindow};
+use pomona_cloud::{DepthPoints, Frame, PixelWindow};
 use pomona_geometry::Sphere;
 use pomona_transforms::{
     CameraFrame, Direction, NamedTransform, Position, RobotFrame, ToolOrientation,
@@ -79,6 +79,43 @@ impl Picker {
                 frame: frame.id.clone(),
             });
         };
+        let boxes: Vec<BoxRecord> = boxes.iter().map(BoxRecord::from).collect();
+        self.pick_boxes(frame, boxes, seed, robot_from_camera)
+    }
+
+    /// The direction of each apple that [`find_apples`](crate::find_apples) found in `frame`, the apples in parallel; the
+    /// frame's own boxes are not read. Boxes whose [`Mark`](crate::Mark) refuses them are not worked on,
+    /// unless [`DetectionConfig::pick_marked`](crate::DetectionConfig::pick_marked).
+    ///
+    /// # Errors
+    ///
+    /// As [`Picker::pick`].
+    pub fn pick_found(
+        &self,
+        frame: &Frame,
+        found: &Found,
+        seed: u64,
+        robot_from_camera: Option<&RobotFromCamera>,
+    ) -> Result<Outcome, PickError> {
+        let start = Instant::now();
+        let boxes = found.boxes.iter().map(|b| BoxRecord {
+            found: Some(b.found),
+            ..BoxRecord::from(&b.bounds)
+        });
+        let mut outcome = self.pick_boxes(frame, boxes.collect(), seed, robot_from_camera)?;
+        let mut detection = found.record.clone();
+        detection.add_picking(milliseconds(start));
+        outcome.record.detection = Some(detection);
+        Ok(outcome)
+    }
+
+    fn pick_boxes(
+        &self,
+        frame: &Frame,
+        boxes: Vec<BoxRecord>,
+        seed: u64,
+        robot_from_camera: Option<&RobotFromCamera>,
+    ) -> Result<Outcome, PickError> {
         frame.validate().map_err(|source| PickError::Frame {
             frame: frame.id.clone(),
             source: Box::new(source),
@@ -93,7 +130,7 @@ impl Picker {
             });
         }
         let picked: Result<Vec<(Pick, Evidence)>, PickError> = boxes
-            .par_iter()
+            .into_par_iter()
             .enumerate()
             .map_init(Buffers::default, |buffers, (id, pixel_box)| {
                 self.pick_apple(frame, id, pixel_box, seed, robot_from_camera, buffers)
@@ -108,6 +145,7 @@ impl Picker {
                 id: frame.id.clone(),
                 frame_id: frame.camera.frame_id.clone(),
             },
+            detection: None,
             picks,
         };
         Ok(Outcome { record, evidence })
@@ -117,7 +155,7 @@ impl Picker {
         &self,
         frame: &Frame,
         id: usize,
-        pixel_box: &PixelBox,
+        pixel_box: BoxRecord,
         seed: u64,
         robot_from_camera: Option<&RobotFromCamera>,
         buffers: &mut Buffers,
@@ -125,7 +163,7 @@ impl Picker {
         let start = Instant::now();
         let mut pick = Pick {
             id,
-            pixel_box: BoxRecord::from(pixel_box),
+            pixel_box,
             status: Status::Picked,
             apple: None,
             branch: None,
@@ -141,6 +179,12 @@ impl Picker {
             timing_ms: TimingRecord::default(),
         };
         let mut evidence = Evidence::default();
+        let refused = pick.pixel_box.found.is_some_and(|f| f.mark.refuses());
+        if refused && !self.config.detection.pick_marked {
+            pick.status = Status::Implausible;
+            pick.timing_ms.total = milliseconds(start);
+            return Ok((pick, evidence));
+        }
         let status = match self.config.method {
             Method::Paper => {
                 self.follow_paper(frame, seed, &mut buffers.points, &mut pick, &mut evidence)?

@@ -1,4 +1,4 @@
-use crate::{DirectionSource, PlanRecord};
+use crate::{DetectionRecord, DetectionTiming, DirectionSource, FoundRecord, PlanRecord};
 use pomona_cloud::PixelBox;
 use serde::{Deserialize, Serialize};
 
@@ -16,6 +16,9 @@ pub struct Record {
     pub seed: u64,
     /// The frame.
     pub frame: FrameRecord,
+    /// What found the boxes; absent where they came with the frame or in a file.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub detection: Option<DetectionRecord>,
     /// One entry for each box, in the boxes' order.
     pub picks: Vec<Pick>,
 }
@@ -36,6 +39,8 @@ pub struct FrameRecord {
 pub enum Status {
     /// It has a direction.
     Picked,
+    /// Depth says that its box, a detector's, holds no apple; the box's mark says why.
+    Implausible,
     /// Its box holds no depth reading.
     NoDepth,
     /// Its box holds fewer readings than make an apple.
@@ -59,6 +64,7 @@ impl Status {
     pub fn name(self) -> &'static str {
         match self {
             Self::Picked => "picked",
+            Self::Implausible => "implausible",
             Self::NoDepth => "no_depth",
             Self::TooFewPoints => "too_few_points",
             Self::NoSphere => "no_sphere",
@@ -133,6 +139,9 @@ pub struct BoxRecord {
     pub y_max: f64,
     /// Detection score, 0 to 1.
     pub score: f64,
+    /// How it was found and what depth says about it: `found_by`, `mark`, `merged`; absent for a box of a file.
+    #[serde(flatten)]
+    pub found: Option<FoundRecord>,
 }
 
 impl From<&PixelBox> for BoxRecord {
@@ -152,6 +161,7 @@ impl From<&PixelBox> for BoxRecord {
             x_max,
             y_max,
             score,
+            found: None,
         }
     }
 }
@@ -268,6 +278,12 @@ impl Record {
     pub fn without_timing(mut self) -> Self {
         for pick in &mut self.picks {
             pick.timing_ms = TimingRecord::default();
+        }
+        if let Some(detection) = &mut self.detection {
+            detection.timing_ms = DetectionTiming {
+                depth_search: detection.timing_ms.depth_search.map(|_| 0.0),
+                ..DetectionTiming::default()
+            };
         }
         self
     }

@@ -18,13 +18,14 @@ mod strips;
 mod view;
 mod walk;
 
+pub(crate) use patch::Optics;
+pub(crate) use sensor::Noise;
 pub use sensor::SensorPreset;
 pub use settings::RobustConfig;
 
 use crate::{AppleRecord, BranchRecord, CandidateRecord, Evidence, Pick, Status};
 use apple::{AppleBuffers, AppleSearch, Found, MARGIN_PX};
 use branch::{Candidate, Search};
-use patch::Optics;
 use pomona_cloud::{Frame, PixelWindow};
 use rand_chacha::ChaCha8Rng;
 use shell::{APPLE, Shell};

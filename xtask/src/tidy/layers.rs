@@ -26,6 +26,7 @@ const FORBIDDEN: &[(&str, &str, &str)] = &[
         "pomona-transforms",
         "the detector knows no robots",
     ),
+    ("pomona-detect", "pomona-fit", "the detector knows no depth"),
     ("pomona-view", "pomona-fit", "pictures know no algorithms"),
     (
         "pomona-view",

@@ -45,7 +45,15 @@ fn missing_files() {
         &["no depth.png in this folder"],
     );
     refused(|b| remove(b, "a/camera.json"), &["no camera.json"]);
-    refused(|b| remove(b, "a/boxes.xml"), &["no boxes", "--boxes"]);
+    // Without boxes a detector is wanted, and this one has no runtime.
+    let bench = Bench::new();
+    remove(&bench, "a/boxes.xml");
+    let before = tree(bench.root());
+    let (frame, out) = (bench.text("a"), bench.text("out/deep"));
+    let runtime = bench.text("libnowhere.so");
+    pomona(&["pick", &frame, "--out", &out, "--runtime", &runtime])
+        .refused(&["no boxes", "--boxes"]);
+    assert_eq!(tree(bench.root()), before, "something was written");
 }
 
 #[test]

@@ -277,11 +277,15 @@ fn boxes_can_come_from_elsewhere() {
     let bench = Bench::new();
     std::fs::rename(bench.path("a/boxes.xml"), bench.path("boxes.xml")).unwrap();
     let (frame, out, boxes) = (bench.text("a"), bench.text("out"), bench.text("boxes.xml"));
-    pomona(&["pick", &frame, "--out", &out]).refused(&[
-        "'a' has no boxes",
-        "boxes.xml",
-        "--boxes FILE",
-    ]);
+    let runtime = bench.text("libnowhere.so");
+    let without = ["pick", &frame, "--out", &out, "--runtime", &runtime];
+    pomona(&without).refused(&["'a' has no boxes", "boxes.xml", "--boxes FILE"]);
+    let twice = pomona(&[&without[..], &["--detect", "--boxes", &boxes]].concat());
+    assert!(
+        twice.code == 2 && twice.err.contains("--detect"),
+        "{}",
+        twice.err
+    );
     assert!(!bench.path("out").exists());
     pomona(&["pick", &frame, "--out", &out, "--boxes", &boxes]).succeeded();
     assert_eq!(record(&bench, "out/picks.json").picks.len(), 3);

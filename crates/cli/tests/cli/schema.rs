@@ -1,7 +1,10 @@
 //! What the program writes holds to the schemas in `docs/`.
 
 use crate::binary::pomona;
-use crate::scene::Bench;
+use crate::scene::{Bench, frame};
+use pomona::{Config, Mark, Picker, find_apples};
+use pomona_detect::Detection;
+use pomona_evaluate::FixedDetector;
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -111,6 +114,49 @@ fn picks() {
     schema.refuses(&picks, "/picks/1/status", Some(json!("picked")));
     schema.refuses(&picks, "/picks/0/direction", Some(json!([0, 0])));
     schema.refuses(&picks, "/picks/0/direction", Some(json!([0, 0, 2])));
+}
+
+#[test]
+fn picks_of_detected_boxes() {
+    let schema = Schema::read("picks.schema.json");
+    let frame = frame("a");
+    let detections = frame.boxes.iter().flatten().map(|b| Detection {
+        x_min: b.x_min,
+        y_min: b.y_min,
+        x_max: b.x_max,
+        y_max: b.y_max,
+        score: b.score,
+        class: 0,
+    });
+    let detector = FixedDetector {
+        detections: detections.collect(),
+    };
+    let mut config = Config::default();
+    config.detection.depth_search = true;
+    let found = find_apples(&frame, &detector, &config).unwrap();
+    let picker = Picker::new(config).unwrap();
+    let outcome = picker.pick_found(&frame, &found, 0, None).unwrap();
+    let picks = serde_json::to_value(&outcome.record).unwrap();
+    schema.accepts(&picks);
+    assert_eq!(picks["picks"][0]["box"]["mark"], "plausible");
+    for mark in Mark::ALL {
+        let mut marked = picks.clone();
+        marked["picks"][0]["box"]["mark"] = json!(mark.name());
+        schema.accepts(&marked);
+    }
+    schema.refuses(&picks, "/picks/0/box/mark", Some(json!("round")));
+    schema.refuses(&picks, "/picks/0/box/mark", None);
+    schema.refuses(&picks, "/picks/0/box/merged", Some(json!(1)));
+    schema.refuses(&picks, "/detection/extra", Some(json!(1)));
+    schema.refuses(&picks, "/detection/name", None);
+    schema.refuses(&picks, "/detection/timing_ms/total", None);
+    let mut implausible = picks;
+    for field in ["direction", "foot", "branch", "apple"] {
+        let pick = implausible["picks"][0].as_object_mut().unwrap();
+        pick.remove(field);
+    }
+    implausible["picks"][0]["status"] = json!("implausible");
+    schema.accepts(&implausible);
 }
 
 #[test]

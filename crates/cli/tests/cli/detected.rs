@@ -1,0 +1,77 @@
+//! Frames without boxes: the model that comes along finds the apples, and all that follows works on them.
+
+use crate::binary::pomona;
+use crate::schema::Schema;
+use pomona::{Record, Status};
+use pomona_cloud::PixelBox;
+use pomona_scenes::Truth;
+use std::path::{Path, PathBuf};
+use tempfile::TempDir;
+
+fn demo() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fixtures/frames/orchard-demo")
+}
+
+/// A copy of the demo frame without its boxes, in a folder of its own.
+fn without_boxes() -> TempDir {
+    let dir = tempfile::tempdir().unwrap();
+    let copy = dir.path().join("orchard-demo");
+    std::fs::create_dir(&copy).unwrap();
+    for name in ["color.png", "depth.png", "camera.json"] {
+        std::fs::copy(demo().join(name), copy.join(name)).unwrap();
+    }
+    dir
+}
+
+fn overlap(a: &PixelBox, b: &pomona::BoxRecord) -> f64 {
+    let width = (a.x_max.min(b.x_max) - a.x_min.max(b.x_min)).max(0.0);
+    let height = (a.y_max.min(b.y_max) - a.y_min.max(b.y_min)).max(0.0);
+    let both = width * height;
+    both / (a.width() * a.height() + (b.x_max - b.x_min) * (b.y_max - b.y_min) - both)
+}
+
+/// Half of the apples is a bound for a network that was trained on photographs and sees a drawn tree.
+#[test]
+fn a_frame_without_boxes_is_detected_and_picked() {
+    let dir = without_boxes();
+    let frame = dir.path().join("orchard-demo");
+    let out = dir.path().join("out");
+    let (frame, out) = (frame.to_str().unwrap(), out.to_str().unwrap());
+    let arguments = [
+        "pick",
+        frame,
+        "--out",
+        out,
+        "--json",
+        "--runtime",
+        "embedded",
+    ];
+    let run = pomona(&arguments).succeeded();
+    let value = run.json();
+    Schema::read("picks.schema.json").accepts(&value);
+    let record: Record = serde_json::from_value(value).unwrap();
+    let detection = record.detection.as_ref().unwrap();
+    assert_eq!(detection.runtime.as_deref(), Some("embedded"));
+
+    let truth = Truth::read(demo()).unwrap().apples;
+    let found = truth.iter().filter(|apple| {
+        let same = |p: &pomona::Pick| overlap(&apple.bounds, &p.pixel_box) >= 0.5;
+        record.picks.iter().any(same)
+    });
+    let found = found.count();
+    assert!(2 * found >= truth.len(), "{found} of {}", truth.len());
+    assert!(record.picks.iter().any(|p| p.status == Status::Picked));
+    assert!(dir.path().join("out/picture.png").is_file());
+
+    // The same again: whatever the number of threads, the same answers.
+    let again = pomona(&[&arguments[..], &["--threads", "1"]].concat()).succeeded();
+    let again: Record = serde_json::from_value(again.json()).unwrap();
+    assert_eq!(again.without_timing(), record.without_timing());
+
+    let table = pomona(&["pick", frame, "--out", out, "--runtime", "embedded"]).succeeded();
+    assert!(
+        table.out.contains("mark") && table.out.contains("detection"),
+        "{}",
+        table.out
+    );
+}

@@ -1,0 +1,176 @@
+//! From a frame to the boxes of its apples: a detector's, checked and joined by depth.
+
+mod appearance;
+mod joining;
+mod look;
+mod record;
+mod roundness;
+mod samples;
+mod search;
+mod settings;
+
+pub use look::Mark;
+pub use record::{DetectionRecord, DetectionTiming, FoundBy, FoundRecord};
+pub use settings::DetectionConfig;
+
+use crate::robust::Optics;
+use crate::seed::apple_rng;
+use crate::{Config, PickError};
+use joining::join;
+use look::{Look, Looker};
+use pomona_cloud::{ColorImage, Frame, PixelBox};
+use pomona_detect::{Detection, Detector};
+use pomona_geometry::Sphere;
+use rayon::prelude::*;
+use search::search;
+use std::time::Instant;
+
+/// Seed of the draws of all checks: a box is judged alike in every run.
+const SEED: u64 = 0x6465_7465_6374;
+
+/// A box in which an apple was looked for and may have been found.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FoundBox {
+    /// The box. Its name is the detection's number, best first; `2+5` for joined ones, `d0` for one found in depth.
+    pub bounds: PixelBox,
+    /// How it was found and what depth says about it.
+    pub found: FoundRecord,
+    /// The sphere that its depth shows, metres in the camera's frame; absent where it shows none.
+    pub sphere: Option<Sphere>,
+}
+
+/// The boxes of a frame's apples, and what found them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Found {
+    /// Those of the colour image, best first, then those that only depth shows.
+    pub boxes: Vec<FoundBox>,
+    /// What `picks.json` says of the detection.
+    pub record: DetectionRecord,
+}
+
+impl Found {
+    /// The boxes alone, as box files hold them: those that depth gives no reason to doubt.
+    pub fn plausible(&self) -> impl Iterator<Item = &PixelBox> {
+        let plausible = |b: &&FoundBox| b.found.mark == Mark::Plausible;
+        self.boxes.iter().filter(plausible).map(|b| &b.bounds)
+    }
+}
+
+/// Finds the apples of `frame`: what `detector` sees in the colour image, each box looked at in depth.
+///
+/// A box keeps its place and gets a [`Mark`]; boxes that show one apple are joined into their hull, with the
+/// best of their scores. With [`DetectionConfig::depth_search`], apples that the colour misses are looked for among
+/// the readings outside of the boxes. The frame's own boxes are not read. Detection is by one thread or
+/// many as the detector pleases; the rest runs box by box in parallel and gives the same for any number of threads.
+///
+/// # Errors
+///
+/// [`PickError::Frame`] where the frame's parts contradict each other, [`PickError::Detect`] where the detector fails.
+pub fn find_apples(
+    frame: &Frame,
+    detector: &dyn Detector,
+    config: &Config,
+) -> Result<Found, PickError> {
+    frame.validate().map_err(|source| PickError::Frame {
+        frame: frame.id.clone(),
+        source: Box::new(source),
+    })?;
+    let start = Instant::now();
+    let detections = detector
+        .detect(&frame.color)
+        .map_err(|source| PickError::Detect {
+            frame: frame.id.clone(),
+            source: Box::new(source),
+        })?;
+    let mut record = DetectionRecord::of(&detector.report());
+    record.timing_ms.detector = milliseconds(start);
+    record.detections = detections.len();
+
+    let start = Instant::now();
+    let bounds = named(&detections, &frame.color);
+    let Some(optics) = Optics::new(&frame.camera) else {
+        // Frame::validate has computed with the lens.
+        return Ok(Found {
+            boxes: Vec::new(),
+            record,
+        });
+    };
+    let looker = Looker::new(&frame.depth, &optics, config);
+    let candidates: Vec<Candidate> = bounds
+        .into_par_iter()
+        .enumerate()
+        .map_init(Default::default, |samples, (i, bounds)| {
+            let mut rng = apple_rng(SEED, &frame.id, i);
+            let look = looker.look(&bounds, &mut rng, samples);
+            Candidate::new(bounds, FoundBy::Color, look)
+        })
+        .collect();
+    let mut candidates = join(candidates, &looker, &frame.id);
+    record.timing_ms.depth_check = milliseconds(start);
+
+    if config.detection.depth_search {
+        let start = Instant::now();
+        let more = search(frame, &looker, &candidates);
+        candidates.extend(more);
+        record.timing_ms.depth_search = Some(milliseconds(start));
+    }
+    record.count(&candidates);
+    let boxes = candidates.into_iter().map(Candidate::finish).collect();
+    Ok(Found { boxes, record })
+}
+
+/// A box and what depth says about it.
+#[derive(Clone, Debug)]
+struct Candidate {
+    bounds: PixelBox,
+    found_by: FoundBy,
+    look: Look,
+    /// Detections that were joined in it.
+    parts: usize,
+}
+
+impl Candidate {
+    fn new(bounds: PixelBox, found_by: FoundBy, look: Look) -> Self {
+        Self {
+            bounds,
+            found_by,
+            look,
+            parts: 1,
+        }
+    }
+
+    fn finish(self) -> FoundBox {
+        FoundBox {
+            bounds: self.bounds,
+            found: FoundRecord {
+                found_by: self.found_by,
+                mark: self.look.mark,
+                merged: (self.parts > 1).then_some(self.parts),
+            },
+            sphere: self.look.sphere,
+        }
+    }
+}
+
+/// The detections as boxes of the image, named by their number; what holds no pixel is left out.
+fn named(detections: &[Detection], image: &ColorImage) -> Vec<PixelBox> {
+    let boxes = detections.iter().enumerate().map(|(i, detection)| {
+        let mut bounds = detection.to_pixel_box(i.to_string());
+        bounds.score = if bounds.score.is_nan() {
+            0.0
+        } else {
+            bounds.score.clamp(0.0, 1.0)
+        };
+        bounds
+    });
+    boxes
+        .filter(|b| b.validate(image.width, image.height).is_ok())
+        .collect()
+}
+
+fn milliseconds(since: Instant) -> f64 {
+    since.elapsed().as_secs_f64() * 1e3
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,389 @@
+//! What depth says about one box.
+
+use super::DetectionConfig;
+use super::roundness::Roundness;
+use super::samples::{Samples, Tally};
+use crate::Config;
+use crate::robust::{Noise, Optics};
+use nalgebra::{Matrix4, Point3, Vector3, Vector4};
+use pomona_cloud::{DepthImage, PixelBox, PixelWindow};
+use pomona_fit::{
+    CenterSide, PlaneEstimator, Points, RadiusPrior, RadiusWindow, Refusing, SphereEstimator,
+    SphereRefit, sphere_weighted,
+};
+use pomona_geometry::{Plane, Sphere};
+use pomona_ransac::{FixedCount, InlierCount, Msac, Ransac};
+use rand_chacha::ChaCha8Rng;
+use serde::{Deserialize, Serialize};
+
+/// What depth says about a detector's box.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum Mark {
+    /// It shows a sphere of an apple's size, or too little to say that there is none.
+    Plausible,
+    /// Not looked at: the settings leave depth out.
+    Unchecked,
+    /// It holds too few readings to judge by. The method decides, as for any box.
+    NoDepth,
+    /// What it shows is farther off than apples are picked.
+    TooFar,
+    /// What is round in it is smaller than an apple.
+    TooSmall,
+    /// What is round in it, or the box itself at its depth, is larger than an apple.
+    TooLarge,
+    /// It shows a flat surface: a leaf, a wall, a picture of an apple.
+    Flat,
+    /// It shows a surface that bends in one direction only, as branches do, or no surface that holds together.
+    NotRound,
+    /// The apple that shows in it has a better box.
+    OfAnother,
+}
+
+impl Mark {
+    /// All of them.
+    pub const ALL: [Self; 9] = [
+        Self::Plausible,
+        Self::Unchecked,
+        Self::NoDepth,
+        Self::TooFar,
+        Self::TooSmall,
+        Self::TooLarge,
+        Self::Flat,
+        Self::NotRound,
+        Self::OfAnother,
+    ];
+
+    /// Its name in `picks.json`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Plausible => "plausible",
+            Self::Unchecked => "unchecked",
+            Self::NoDepth => "no_depth",
+            Self::TooFar => "too_far",
+            Self::TooSmall => "too_small",
+            Self::TooLarge => "too_large",
+            Self::Flat => "flat",
+            Self::NotRound => "not_round",
+            Self::OfAnother => "of_another",
+        }
+    }
+
+    /// Whether it says that the box holds no apple to be picked.
+    pub fn refuses(self) -> bool {
+        !matches!(self, Self::Plausible | Self::Unchecked | Self::NoDepth)
+    }
+}
+
+/// Spheres through four random readings that are tried.
+const DRAWS: u64 = 64;
+
+/// Planes through three random readings that are tried where a surface is not round.
+const PLANES: u64 = 30;
+
+/// Share of the readings on one plane that make a flat surface.
+const FLAT: f64 = 0.7;
+
+/// Standard deviation of an apple's surface about a sphere, metres: its flattening, mostly.
+const ROUND_SD_M: f64 = 0.0015;
+
+/// Standard deviations within which a reading is of a surface.
+const WITHIN: f64 = 2.5;
+
+/// Spheres that are looked at one after the other before a box is given up.
+const ATTEMPTS: usize = 3;
+
+/// Share of its outline on which an apple must show that is not the first thing seen in its box.
+const LEAST_SHOWN: f64 = 0.2;
+
+/// Standard deviation of a radius that is held at a bound, metres.
+const HELD_M: f64 = 0.0002;
+
+/// By how much boxes may be larger than what they hold.
+const LOOSE_BOX: f64 = 1.4;
+
+/// Most of a sphere's core that may be seen through: gaps of depth cameras, and boxes that shift.
+const SEEN_THROUGH: f64 = 0.35;
+
+/// Least share of a sphere's outline in the box on which its surface must show.
+const LEAST_COVERAGE: f64 = 0.15;
+
+/// The same of a sphere as large as the bounds allow.
+const STRETCHED_SHOWN: f64 = 0.4;
+
+/// Most of a box that may lie beyond the outline of its sphere on one side.
+const BEYOND: f64 = 0.3;
+
+/// Standard deviations by which a surface may be flatter than it looks.
+const UNSURE: f64 = 2.0;
+
+/// Least share of the readings within the outline that must be its surface.
+const LEAST_SUPPORT: f64 = 0.15;
+
+/// What was seen in a box.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Look {
+    pub(super) mark: Mark,
+    /// The sphere that its depth shows.
+    pub(super) sphere: Option<Sphere>,
+    pub(super) tally: Tally,
+    pub(super) roundness: Option<Roundness>,
+}
+
+impl Look {
+    fn of(mark: Mark) -> Self {
+        Self {
+            mark,
+            sphere: None,
+            tally: Tally::default(),
+            roundness: None,
+        }
+    }
+}
+
+/// Looks at the boxes of one depth image.
+pub(super) struct Looker<'a> {
+    pub(super) depth: &'a DepthImage,
+    pub(super) optics: &'a Optics<'a>,
+    pub(super) config: &'a DetectionConfig,
+    noise: Noise,
+}
+
+impl<'a> Looker<'a> {
+    pub(super) fn new(depth: &'a DepthImage, optics: &'a Optics<'a>, config: &'a Config) -> Self {
+        Self {
+            depth,
+            optics,
+            config: &config.detection,
+            noise: config.robust.noise(),
+        }
+    }
+
+    /// Judges a box. `samples` is memory that serves one box after another; it holds the box's readings afterwards.
+    pub(super) fn look(
+        &self,
+        bounds: &PixelBox,
+        rng: &mut ChaCha8Rng,
+        samples: &mut Samples,
+    ) -> Look {
+        if !self.config.depth_check {
+            return Look::of(Mark::Unchecked);
+        }
+        let (width, height) = (self.depth.width, self.depth.height);
+        let b = bounds;
+        let window = PixelWindow::clamped(b.x_min, b.y_min, b.x_max, b.y_max, width, height);
+        samples.fill(self.depth, self.optics, window);
+        if samples.len() < self.config.min_readings {
+            return Look::of(Mark::NoDepth);
+        }
+        let front = samples.depth_at(0.1);
+        if front > self.config.range_max_m {
+            return Look::of(Mark::TooFar);
+        }
+        let metres = self.optics.pixel_m(front);
+        let (less, more) = (b.width().min(b.height()), b.width().max(b.height()));
+        if 0.5 * less * metres > LOOSE_BOX * self.config.radius_max_m {
+            return Look::of(Mark::TooLarge);
+        }
+        if 0.5 * more * metres < LOOSE_BOX * self.config.radius_min_m
+            && let Some(small) = self.too_small(bounds, samples, rng)
+        {
+            return small;
+        }
+        self.apple(bounds, samples, rng)
+    }
+
+    /// The first of a few spheres that could be an apple, or why none could. Whatever was taken for
+    /// one and is none, a leaf before the apple, is left out when the next is looked for.
+    fn apple(&self, bounds: &PixelBox, samples: &mut Samples, rng: &mut ChaCha8Rng) -> Look {
+        let radii = (self.config.radius_min_m, self.config.radius_max_m);
+        samples.all_left();
+        let mut first = Look::of(Mark::NotRound);
+        for attempt in 0..ATTEMPTS {
+            let Some(sphere) = self.sphere(radii, samples, rng) else {
+                break;
+            };
+            let look = self.judge(bounds, sphere, samples);
+            match look.mark {
+                Mark::TooFar => return look,
+                Mark::Plausible if attempt == 0 || self.convinces(&look) => return look,
+                _ => {}
+            }
+            if attempt == 0 {
+                first = look;
+                if self.is_flat(sphere.center.z, samples, rng) {
+                    break;
+                }
+            }
+            samples.leave_out(&sphere, self.threshold(sphere.center.z));
+        }
+        let z = first.sphere.map_or(samples.depth_at(0.5), |s| s.center.z);
+        first.mark = if self.is_flat(z, samples, rng) {
+            Mark::Flat
+        } else {
+            Mark::NotRound
+        };
+        first
+    }
+
+    /// Whether what is left of a box, less what was no apple, shows one beyond doubt.
+    fn convinces(&self, look: &Look) -> bool {
+        let round = look.roundness.as_ref();
+        round.is_some_and(|r| r.least >= self.config.least_roundness)
+            && look.tally.coverage() >= LEAST_SHOWN
+    }
+
+    /// What a sphere within the bounds looks like.
+    fn judge(&self, bounds: &PixelBox, sphere: Sphere, samples: &Samples) -> Look {
+        let z = sphere.center.z;
+        let threshold = self.threshold(z);
+        let tally = samples.tally(&sphere, threshold);
+        let near = (0..samples.len()).map(|i| samples.point(i)).filter(|p| {
+            sphere.signed_distance(p).abs() <= 1.5 * threshold && p.z <= sphere.center.z
+        });
+        let roundness = Roundness::of(near, &sphere, self.sigma(z));
+        let bent = |r: &Roundness| r.least + UNSURE * r.least_sd < self.config.least_roundness;
+        // A surface that would be flatter if it could, and shows little.
+        let stretched =
+            sphere.radius > 0.98 * self.config.radius_max_m && tally.coverage() < STRETCHED_SHOWN;
+        let mark = if z - sphere.radius > self.config.range_max_m {
+            Mark::TooFar
+        } else if roundness.as_ref().is_some_and(bent)
+            || stretched
+            || tally.seen_through() > SEEN_THROUGH
+            || tally.support() < LEAST_SUPPORT
+            || tally.coverage() < LEAST_COVERAGE
+            || self.beyond(bounds, &sphere) > BEYOND
+        {
+            Mark::NotRound
+        } else {
+            Mark::Plausible
+        };
+        Look {
+            mark,
+            sphere: Some(sphere),
+            tally,
+            roundness,
+        }
+    }
+
+    /// For a box no larger than the smallest apples: whether all of it is something round that is smaller still.
+    fn too_small(
+        &self,
+        bounds: &PixelBox,
+        samples: &mut Samples,
+        rng: &mut ChaCha8Rng,
+    ) -> Option<Look> {
+        let least = self.config.radius_min_m;
+        samples.all_left();
+        let sphere = self.sphere((least / 4.0, self.config.radius_max_m), samples, rng)?;
+        let look = self.judge(bounds, sphere, samples);
+        let small = sphere.radius + 2.0 * self.radius_sd(&sphere, samples) < least;
+        (small && look.mark == Mark::Plausible).then_some(Look {
+            mark: Mark::TooSmall,
+            ..look
+        })
+    }
+
+    /// Whether one plane holds most of the readings.
+    fn is_flat(&self, z: f64, samples: &Samples, rng: &mut ChaCha8Rng) -> bool {
+        let Ok(points) = Points::new(&samples.x, &samples.y, &samples.z) else {
+            return false;
+        };
+        let plane = Ransac::new(InlierCount::within(WITHIN * self.noise.sigma(z)))
+            .stopping(FixedCount::new(PLANES))
+            .run(&PlaneEstimator::new(points), rng);
+        plane.is_ok_and(|p| p.inliers.len() as f64 >= FLAT * samples.len() as f64)
+    }
+
+    /// How far the box reaches beyond the sphere's outline at its worst edge, as a share of its longer side.
+    fn beyond(&self, bounds: &PixelBox, sphere: &Sphere) -> f64 {
+        let Some((u, v)) = self.optics.project(&sphere.center) else {
+            return f64::INFINITY;
+        };
+        let half = sphere.radius / self.optics.pixel_m(sphere.center.z);
+        let b = bounds;
+        let edges = [
+            u - half - b.x_min,
+            v - half - b.y_min,
+            b.x_max - u - half,
+            b.y_max - v - half,
+        ];
+        let most = edges.into_iter().fold(0.0, f64::max);
+        most / b.width().max(b.height())
+    }
+
+    /// Standard deviation of a reading about a sphere at depth `z`, metres.
+    fn sigma(&self, z: f64) -> f64 {
+        self.noise.sigma(z).hypot(ROUND_SD_M)
+    }
+
+    /// Distance within which a reading is of a sphere at depth `z`, metres.
+    pub(super) fn threshold(&self, z: f64) -> f64 {
+        WITHIN * self.sigma(z)
+    }
+
+    /// The sphere with a radius within `bounds` that most of the readings left support, with its centre behind what is
+    /// seen.
+    fn sphere(
+        &self,
+        bounds: (f64, f64),
+        samples: &mut Samples,
+        rng: &mut ChaCha8Rng,
+    ) -> Option<Sphere> {
+        if samples.left_z.len() < self.config.min_readings {
+            return None;
+        }
+        let (least, most) = bounds;
+        let front = samples.left_depth_at(0.25);
+        let behind = Plane::new(Point3::new(0.0, 0.0, front), Vector3::z())?;
+        let points = Points::new(&samples.left_x, &samples.left_y, &samples.left_z).ok()?;
+        let threshold = self.threshold(front);
+        let report = Ransac::new(Msac::within(threshold))
+            .constraint(Refusing(RadiusWindow::new(least, most).ok()?))
+            .constraint(Refusing(CenterSide::positive(behind)))
+            .stopping(FixedCount::new(DRAWS).max_draws(4 * DRAWS))
+            .min_inliers(8)
+            .run(&SphereEstimator::new(points, SphereRefit::Geometric), rng)
+            .ok()?;
+        let weight = self.sigma(front).powi(-2);
+        let wide = RadiusPrior::new(0.5 * (least + most), 0.5 * (most - least)).ok()?;
+        let mut sphere = report.model;
+        for _ in 0..2 {
+            let mut near = std::mem::take(&mut samples.near);
+            near.clear();
+            let of_it = |i: &usize| sphere.signed_distance(&samples.point(*i)).abs() <= threshold;
+            near.extend((0..samples.len()).filter(of_it));
+            let weighted = near.iter().map(|&i| (samples.point(i), weight));
+            let mut refined = sphere_weighted(weighted.clone(), &sphere, Some(wide));
+            if let Some(beyond) = refined.filter(|s| !(least..=most).contains(&s.radius)) {
+                // Little of the surface leaves the radius open: the nearest one within the bounds will do.
+                let held = RadiusPrior::new(beyond.radius.clamp(least, most), HELD_M).ok()?;
+                refined = sphere_weighted(weighted, &sphere, Some(held));
+            }
+            samples.near = near;
+            sphere = refined?;
+        }
+        let within = (0.95 * least..=1.05 * most).contains(&sphere.radius);
+        (within && sphere.center.z > front).then_some(sphere)
+    }
+
+    /// Standard deviation of the radius, metres, by the readings of the last refit and the prior.
+    fn radius_sd(&self, sphere: &Sphere, samples: &Samples) -> f64 {
+        let weight = self.sigma(sphere.center.z).powi(-2);
+        let mut information = Matrix4::zeros();
+        for &i in &samples.near {
+            let Some(n) = (samples.point(i) - sphere.center).try_normalize(1e-9) else {
+                continue;
+            };
+            let row = Vector4::new(n.x, n.y, n.z, 1.0);
+            information += weight * row * row.transpose();
+        }
+        let half = 0.5 * (self.config.radius_max_m - self.config.radius_min_m);
+        information[(3, 3)] += half.powi(-2);
+        information.try_inverse().map_or(half, |covariance| {
+            covariance[(3, 3)].max(0.0).sqrt().min(half)
+        })
+    }
+}

@@ -3,6 +3,7 @@
 mod calibration;
 mod clouds;
 mod comparison;
+mod detection;
 mod engine;
 mod interval;
 mod own;
@@ -26,6 +27,9 @@ pub(crate) struct Args {
     /// installed
     #[arg(long, group = "contest", value_name = "N", num_args = 0..=1, require_equals = true, default_missing_value = "200", value_parser = clap::value_parser!(u32).range(1..))]
     calibration: Option<u32>,
+    /// Only run the detectors' networks in both runtimes, so many rounds in turns, 30 by default
+    #[arg(long, group = "contest", value_name = "N", num_args = 0..=1, require_equals = true, default_missing_value = "30", value_parser = clap::value_parser!(u32).range(1..))]
+    detection: Option<u32>,
     /// Get those peers first that a package registry holds
     #[arg(long, requires = "contest")]
     install: bool,
@@ -48,6 +52,9 @@ const SUITES: [&str; 3] = ["lab15", "repeat474", "orchard"];
 /// Runs and prints it all.
 pub(crate) fn run(args: &Args) -> Result<()> {
     let workspace = Workspace::read()?;
+    if let Some(rounds) = args.detection {
+        return detection::run(&workspace, rounds);
+    }
     if !args.only_peers && args.calibration.is_none() {
         own::run(&workspace, args.filter.as_deref())?;
     }

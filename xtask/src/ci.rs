@@ -26,6 +26,23 @@ enum Action {
     },
 }
 
+/// What only a build with features shows, by the package that has them: lints and tests that the workspace's own leave
+/// out. Of the command line only the tests that need the feature run a second time.
+const FEATURE_TESTS: [(&str, &str); 3] = [
+    (
+        "pomona-cli",
+        "clippy --package pomona --package pomona-cli --features mcap --all-targets -- -D warnings",
+    ),
+    (
+        "pomona",
+        "test --package pomona --features mcap --test recording",
+    ),
+    (
+        "pomona-cli",
+        "test --package pomona-cli --features mcap --test cli mcap",
+    ),
+];
+
 /// Runs every step, cheap ones first, and stops at the first that fails.
 pub(crate) fn run() -> Result<()> {
     let begin = Instant::now();
@@ -60,6 +77,9 @@ fn steps(workspace: &Workspace) -> Vec<Step> {
     ];
     steps.extend(workspace.packages.iter().flat_map(feature_builds));
     steps.push(Step::cargo("test", "test --workspace"));
+    let has = |package: &str| workspace.packages.iter().any(|p| p.name == package);
+    let tested = FEATURE_TESTS.iter().filter(|(package, _)| has(package));
+    steps.extend(tested.map(|(_, arguments)| Step::cargo("features", arguments)));
     let mut doc = Step::cargo("doc", "doc --workspace --no-deps");
     if let Action::Cargo { variable, .. } = &mut doc.action {
         *variable = Some(("RUSTDOCFLAGS", "-D warnings"));
@@ -172,6 +192,26 @@ mod tests {
         );
         assert_eq!(lines[5], "cargo xtask standalone");
         assert_eq!(lines[6], "cargo xtask regress");
+    }
+
+    #[test]
+    fn tests_of_features_run_where_their_package_is() {
+        let metadata = r#"{"name": "pomona", "manifest_path": "/x/Cargo.toml", "dependencies": [],
+            "targets": [], "features": {}}"#;
+        let workspace = Workspace::of(vec![serde_json::from_str(metadata).unwrap()]);
+        let lines: Vec<String> = steps(&workspace)
+            .iter()
+            .map(|step| step.action.command_line())
+            .collect();
+        let after = lines
+            .iter()
+            .position(|l| l == "cargo test --workspace")
+            .unwrap();
+        assert_eq!(
+            lines[after + 1],
+            "cargo test --package pomona --features mcap --test recording"
+        );
+        assert!(!lines.iter().any(|l| l.contains("pomona-cli")));
     }
 
     #[test]

@@ -1,6 +1,8 @@
 //! Time of planning an apple, of ordering a frame, and of building a frame's scene.
 //!
-//! Lines `accuracy NAME TEXT` on standard output say how many of the apples were free.
+//! Lines `accuracy NAME TEXT` on standard output say how many of the apples were free, lines `apple NAME TEXT` the time of
+//! planning one apple: the least of many rounds for each, which another program's work does not lengthen; and
+//! their mean, median and largest. With the argument `--test` they are all that is measured.
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use nalgebra::{Point3, Vector3};
@@ -10,6 +12,7 @@ use pomona_transforms::Direction;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use std::hint::black_box;
+use std::time::{Duration, Instant};
 
 /// Apples of the frame.
 const APPLES: usize = 12;
@@ -84,12 +87,48 @@ impl Orchard {
     }
 }
 
+/// Rounds of which the least time of each apple is taken.
+const ROUNDS: usize = 200;
+
+/// The least times of planning each target, in ascending order.
+fn least_times(
+    planner: &Planner,
+    scene: &Scene,
+    targets: &[Target],
+    start: &StartPose,
+) -> Vec<f64> {
+    let mut least = vec![Duration::MAX; targets.len()];
+    for _ in 0..ROUNDS {
+        for (target, least) in targets.iter().zip(&mut least) {
+            let begin = Instant::now();
+            let _ = black_box(planner.plan(scene, target, start));
+            *least = begin.elapsed().min(*least);
+        }
+    }
+    let mut milliseconds: Vec<f64> = least.iter().map(|t| t.as_secs_f64() * 1e3).collect();
+    milliseconds.sort_by(f64::total_cmp);
+    milliseconds
+}
+
+/// The least time of building a scene, in milliseconds.
+fn least_scene_time(orchard: &Orchard, planner: &Planner) -> f64 {
+    let time = |_| {
+        let begin = Instant::now();
+        let scene = black_box(orchard.scene(planner));
+        let took = begin.elapsed();
+        drop(scene);
+        took
+    };
+    let least = (0..ROUNDS / 4).map(time).min();
+    least.map_or(0.0, |t| t.as_secs_f64() * 1e3)
+}
+
 fn approach(criterion: &mut Criterion) {
     let Ok(planner) = Planner::new(ApproachConfig::default()) else {
         return;
     };
     let start = StartPose::looking_along_x(Point3::new(0.25, 0.0, 0.4));
-    for (name, leaves) in [("sparse", 30), ("leafy", 250)] {
+    for (name, leaves) in [("bare", 0), ("sparse", 30), ("leafy", 250)] {
         let orchard = Orchard::new(leaves);
         let scene = orchard.scene(&planner);
         let plan = |target| planner.plan(&scene, target, &start);
@@ -99,6 +138,14 @@ fn approach(criterion: &mut Criterion) {
             "accuracy {name} {free} of {APPLES} free; {} points in {} balls",
             orchard.cloud.len(),
             scene.rest().len()
+        );
+        let times = least_times(&planner, &scene, &orchard.targets, &start);
+        println!(
+            "apple {name} mean {:.3} ms, median {:.3}, largest {:.3}; scene {:.2} ms",
+            times.iter().sum::<f64>() / times.len() as f64,
+            0.5 * (times[(times.len() - 1) / 2] + times[times.len() / 2]),
+            times[times.len() - 1],
+            least_scene_time(&orchard, &planner),
         );
         // Divide by twelve for the time of an apple.
         criterion.bench_function(&format!("plan/{name}/12 apples"), |b| {

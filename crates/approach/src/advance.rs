@@ -1,8 +1,9 @@
 //! The clearance along a curved path, with nothing missed between two looks.
 
 use crate::body::Body;
+use crate::outline::{Outline, Placed};
 use crate::scene::{Hit, Scene, Shape, View};
-use crate::{ClearanceConfig, Path, Stage};
+use crate::{ClearanceConfig, Gripper, Path, Stage};
 
 /// Intervals of a piece over which its speed is bounded by one number.
 const INTERVALS: usize = 12;
@@ -38,8 +39,8 @@ pub(crate) fn floor(least: f64, resolution: f64) -> f64 {
 /// The first look with a slack under ε.
 pub(crate) fn transit(
     path: &Path,
-    open: &[Body; 4],
-    radius_about_tool: f64,
+    intervals: &[Interval],
+    open: &Open,
     scene: &Scene,
     view: &View<'_>,
     config: &ClearanceConfig,
@@ -50,7 +51,22 @@ pub(crate) fn transit(
     let least_slack = |least: &Option<TimedHit>| least.map_or(config.cutoff_m, |(h, _)| h.slack());
     let mut allowance = 0.0;
     let mut first = true;
-    for (from, to, speed) in intervals(path, radius_about_tool, view.any) {
+    // A way that collides mostly does so near the fruit.
+    let backwards = view.any;
+    for number in 0..intervals.len() {
+        let interval = if backwards {
+            &intervals[intervals.len() - 1 - number]
+        } else {
+            &intervals[number]
+        };
+        let &Interval {
+            mut from,
+            mut to,
+            speed,
+        } = interval;
+        if backwards {
+            std::mem::swap(&mut from, &mut to);
+        }
         let length = (to - from).abs();
         let mut gone = 0.0;
         loop {
@@ -64,9 +80,10 @@ pub(crate) fn transit(
             }
             first = false;
             let time = if to > from { from + gone } else { from - gone };
-            let pose = path.sample(time).pose();
-            let bodies = open.map(|body| body.moved(&pose));
-            let hit = scene.nearest(&Shape::new(&bodies), view, config, ahead);
+            let pose = path.pose(time);
+            let bodies = open.bodies.map(|body| body.moved(&pose));
+            let shape = Shape::with_outline(&bodies, Placed::new(&open.outline, &pose));
+            let hit = scene.nearest(&shape, view, config, ahead);
             let slack = hit.map_or(ahead, |h| h.slack());
             if let Some(hit) = hit
                 && slack < least_slack(&least)
@@ -86,24 +103,43 @@ pub(crate) fn transit(
     Ok(least)
 }
 
-/// Intervals of the transit in the order in which to go through them: where each is entered and
-/// left, and a bound on the speed of the gripper's points within it.
-fn intervals(path: &Path, radius: f64, backwards: bool) -> Vec<(f64, f64, f64)> {
+/// A part of the transit, and a bound on the speed of the gripper's points within it.
+pub(crate) struct Interval {
+    from: f64,
+    to: f64,
+    speed: f64,
+}
+
+/// The intervals of the transit from the start to the pre-grasp.
+pub(crate) fn intervals(path: &Path, open: &Open) -> Vec<Interval> {
     let mut intervals = Vec::with_capacity(2 * INTERVALS);
     for piece in path.pieces().iter().filter(|p| p.stage == Stage::Transit) {
         let step = piece.curve.duration_s / INTERVALS as f64;
         for i in 0..INTERVALS {
             let from = piece.start_s + i as f64 * step;
             let to = from + step;
-            let speed = path.point_speed_bound(piece, from, to, radius);
-            intervals.push((from, to, speed));
-        }
-    }
-    if backwards {
-        intervals.reverse();
-        for (from, to, _) in &mut intervals {
-            std::mem::swap(from, to);
+            let speed = path.point_speed_bound(piece, from, to, open.radius_about_tool);
+            intervals.push(Interval { from, to, speed });
         }
     }
     intervals
+}
+
+/// The open gripper.
+#[derive(Clone, Debug)]
+pub(crate) struct Open {
+    bodies: [Body; 4],
+    outline: Outline,
+    radius_about_tool: f64,
+}
+
+impl Open {
+    pub(crate) fn of(gripper: &Gripper) -> Self {
+        let bodies = gripper.open();
+        Self {
+            outline: Outline::of(&bodies),
+            radius_about_tool: gripper.radius_about_tool(),
+            bodies,
+        }
+    }
 }

@@ -1,4 +1,4 @@
-use crate::{ConfigError, Gripper};
+use crate::{ConfigError, Gripper, outdated};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 use std::path::Path;
@@ -215,13 +215,20 @@ impl ApproachConfig {
     ///
     /// # Errors
     ///
-    /// [`ConfigError::Read`], [`ConfigError::Parse`], [`ConfigError::Value`].
+    /// [`ConfigError::Read`], [`ConfigError::Parse`], [`ConfigError::Outdated`], [`ConfigError::Value`].
     pub fn read(path: impl AsRef<Path>) -> Result<Self, ConfigError> {
         let name = || path.as_ref().display().to_string();
         let text = std::fs::read_to_string(path.as_ref()).map_err(|source| ConfigError::Read {
             path: name(),
             source,
         })?;
+        let table = text.parse::<toml::Table>().ok();
+        if let Some(instead) = table.as_ref().and_then(outdated::in_place_of) {
+            return Err(ConfigError::Outdated {
+                path: name(),
+                instead,
+            });
+        }
         let config: Self = toml::from_str(&text).map_err(|source| ConfigError::Parse {
             path: name(),
             source: Box::new(source),
@@ -427,8 +434,12 @@ mod tests {
         for (text, part) in [
             ("[gripper]\njaw_width_m = -1.0", "gripper.jaw_width_m"),
             (
-                "[gripper]\nwrist_from_tool_quaternion_xyzw = [1.0, 1.0, 0.0, 0.0]",
+                "[gripper]\ntcp_from_flange_quaternion_xyzw = [1.0, 1.0, 0.0, 0.0]",
                 "norm 1",
+            ),
+            (
+                "[gripper]\ntool_axis = [0.0, 0.0, 0.0]",
+                "gripper.tool_axis",
             ),
             ("[reach]\nshell_outer_m = 0.1", "reach.shell_outer_m"),
             (

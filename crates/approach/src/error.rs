@@ -21,6 +21,16 @@ pub enum ConfigError {
         /// Where and why.
         source: Box<toml::de::Error>,
     },
+    /// It says where the flange is as it was said before.
+    #[error(
+        "robot settings '{path}': `wrist_from_tool_*` of [gripper] are no longer known; write {instead}"
+    )]
+    Outdated {
+        /// The file.
+        path: String,
+        /// What to write.
+        instead: String,
+    },
     /// A value outside of what makes sense.
     #[error("robot setting {name} = {value}: it must be {rule}")]
     Value {

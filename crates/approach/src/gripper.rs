@@ -1,7 +1,8 @@
 use crate::body::Body;
 use crate::config::require;
 use crate::error::ConfigError;
-use nalgebra::{Isometry3, Point3, Quaternion, Translation3, UnitQuaternion, Vector3};
+use nalgebra::{Isometry3, Point3, Quaternion, Vector3};
+use pomona_transforms::{Direction, ToolModel, Transform};
 use serde::{Deserialize, Serialize};
 
 /// A gripper with two parallel fingers, a palm and a wrist; lengths in metres.
@@ -32,12 +33,15 @@ pub struct Gripper {
     /// Room for error between the apple's surface and each finger and the palm. Default 0.005. Less:
     /// larger apples, and fingers that knock against them.
     pub grip_margin_m: f64,
-    /// Place of the tool frame in the frame of the wrist link, which robots' programs move.
-    /// Default 0 0 0.
-    pub wrist_from_tool_translation_m: [f64; 3],
-    /// Orientation of the tool frame in the frame of the wrist link, x y z w. Default 0 0 0 1: the
-    /// link approaches along its +x. For one that approaches along +z: 0 -0.7071 0 0.7071.
-    pub wrist_from_tool_quaternion_xyzw: [f64; 4],
+    /// The axis of the tool's own frame that leads in the approach. Default 1 0 0. Most programs
+    /// have 0 0 1. The fingers open along its y, for an axis along y along its x.
+    pub tool_axis: [f64; 3],
+    /// Place of the flange, which robots' programs move, in the tool's own frame, whose origin is
+    /// where the apple's centre comes to rest. Default 0 0 0. A flange 0.18 m behind, for an axis of
+    /// 0 0 1: 0 0 -0.18.
+    pub tcp_from_flange_translation_m: [f64; 3],
+    /// Orientation of the flange in the tool's own frame, x y z w. Default 0 0 0 1.
+    pub tcp_from_flange_quaternion_xyzw: [f64; 4],
 }
 
 impl Default for Gripper {
@@ -51,8 +55,9 @@ impl Default for Gripper {
             wrist_diameter_m: 0.070,
             wrist_length_m: 0.150,
             grip_margin_m: 0.005,
-            wrist_from_tool_translation_m: [0.0; 3],
-            wrist_from_tool_quaternion_xyzw: [0.0, 0.0, 0.0, 1.0],
+            tool_axis: [1.0, 0.0, 0.0],
+            tcp_from_flange_translation_m: [0.0; 3],
+            tcp_from_flange_quaternion_xyzw: [0.0, 0.0, 0.0, 1.0],
         }
     }
 }
@@ -77,35 +82,48 @@ impl Gripper {
         ] {
             require((0.0..=1.0).contains(&value), name, value, rule)?;
         }
-        let [x, y, z] = self.wrist_from_tool_translation_m;
+        let [x, y, z] = self.tool_axis;
+        let length = x.hypot(y).hypot(z);
+        require(
+            (length - 1.0).abs() <= 1e-3,
+            "gripper.tool_axis",
+            length,
+            "of length 1, for example [0.0, 0.0, 1.0]",
+        )?;
+        let [x, y, z] = self.tcp_from_flange_translation_m;
         require(
             x.hypot(y).hypot(z) <= 2.0,
-            "gripper.wrist_from_tool_translation_m",
+            "gripper.tcp_from_flange_translation_m",
             x.hypot(y).hypot(z),
             "at most 2 metres long",
         )?;
-        let [x, y, z, w] = self.wrist_from_tool_quaternion_xyzw;
+        let [x, y, z, w] = self.tcp_from_flange_quaternion_xyzw;
         let norm = Quaternion::new(w, x, y, z).norm();
         require(
             (norm - 1.0).abs() <= 1e-3,
-            "gripper.wrist_from_tool_quaternion_xyzw",
+            "gripper.tcp_from_flange_quaternion_xyzw",
             norm,
             "of norm 1; copy all digits, in the order x y z w",
         )
     }
 
-    /// Pose of the tool frame in the frame of the wrist link.
-    pub fn wrist_from_tool(&self) -> Isometry3<f64> {
-        let [x, y, z, w] = self.wrist_from_tool_quaternion_xyzw;
-        Isometry3::from_parts(
-            Translation3::from(self.wrist_from_tool_translation_m),
-            UnitQuaternion::new_normalize(Quaternion::new(w, x, y, z)),
-        )
+    /// The tool as `pomona-transforms` has it; the default one where a setting is such that
+    /// [`ApproachConfig::validate`](crate::ApproachConfig::validate) refuses it.
+    pub fn tool_model(&self) -> ToolModel {
+        let mount = Transform::from_quaternion(
+            self.tcp_from_flange_translation_m,
+            self.tcp_from_flange_quaternion_xyzw,
+        );
+        match (mount, Direction::new(Vector3::from(self.tool_axis))) {
+            (Ok(tcp_from_flange), Some(axis)) => ToolModel::new(tcp_from_flange, axis),
+            _ => ToolModel::default(),
+        }
     }
 
-    /// Pose of the wrist link for a pose of the tool frame, both in the base's frame.
+    /// Pose of the flange, the wrist link that robots' programs move, for a pose of the gripper's frame (+x the approach,
+    /// y the opening), both in the base's frame.
     pub fn wrist_pose(&self, tool_pose: &Isometry3<f64>) -> Isometry3<f64> {
-        tool_pose * self.wrist_from_tool().inverse()
+        self.tool_model().flange_at(tool_pose)
     }
 
     /// The opening and the depth that an apple of this radius needs, in metres, margins included.
@@ -204,6 +222,7 @@ impl Gripper {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use nalgebra::Translation3;
 
     #[test]
     fn parts_stand_where_their_sizes_say() {
@@ -241,14 +260,15 @@ mod tests {
     #[test]
     fn the_wrist_follows_the_tool() {
         let gripper = Gripper {
-            wrist_from_tool_translation_m: [0.0, 0.0, 0.2],
-            wrist_from_tool_quaternion_xyzw: [0.0, -0.5_f64.sqrt(), 0.0, 0.5_f64.sqrt()],
+            tool_axis: [0.0, 0.0, 1.0],
+            tcp_from_flange_translation_m: [0.0, 0.0, -0.2],
             ..Gripper::default()
         };
         gripper.validate().unwrap();
         let wrist = gripper.wrist_pose(&Isometry3::identity());
         // The link's +z is the tool's +x, and the link stands 0.2 m behind.
         assert!((wrist * Vector3::z() - Vector3::x()).norm() < 1e-12);
+        assert!((wrist * Vector3::y() - Vector3::y()).norm() < 1e-12);
         assert!((wrist * Point3::origin() - Point3::new(-0.2, 0.0, 0.0)).norm() < 1e-12);
     }
 }

@@ -81,6 +81,8 @@ mod config;
 mod error;
 mod gripper;
 mod order;
+mod outdated;
+mod outline;
 mod path;
 mod planner;
 mod point_tree;

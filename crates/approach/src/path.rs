@@ -194,6 +194,27 @@ impl Path {
         }
     }
 
+    /// The place alone at a time, as [`Path::sample`] gives it.
+    pub(crate) fn place(&self, time_s: f64) -> Point3<f64> {
+        let time_s = time_s.clamp(0.0, self.duration_s());
+        let later = self.pieces.partition_point(|piece| piece.start_s <= time_s);
+        let piece = &self.pieces[later.saturating_sub(1)];
+        piece.curve.position(time_s - piece.start_s).into()
+    }
+
+    /// The pose alone at a time, as [`Path::sample`] gives it.
+    pub(crate) fn pose(&self, time_s: f64) -> Isometry3<f64> {
+        let share = if time_s < self.pre_grasp_s {
+            self.share.position(time_s.max(0.0)).x
+        } else {
+            1.0
+        };
+        Isometry3::from_parts(
+            self.place(time_s).into(),
+            self.start_rotation * UnitQuaternion::from_scaled_axis(self.turn * share),
+        )
+    }
+
     /// `count` samples at equal steps from the start to the end; at least two.
     pub fn samples(&self, count: usize) -> Vec<Sample> {
         let count = count.max(2);
@@ -222,11 +243,11 @@ impl Path {
 
     /// When the tool has `left_m` of the final straight before it.
     pub(crate) fn time_on_straight(&self, left_m: f64) -> f64 {
-        let grasp = self.sample(self.grasp_s).position;
+        let grasp = self.place(self.grasp_s);
         let (mut early, mut late) = (self.pre_grasp_s, self.grasp_s);
         for _ in 0..40 {
             let middle = 0.5 * (early + late);
-            if (self.sample(middle).position - grasp).norm() > left_m {
+            if (self.place(middle) - grasp).norm() > left_m {
                 early = middle;
             } else {
                 late = middle;

@@ -1,5 +1,4 @@
-use crate::advance;
-use crate::body::Body;
+use crate::advance::{self, Open};
 use crate::path::Waypoints;
 use crate::pose::{aligned, nearer_half_turn, roll_of, tool_rotation};
 use crate::scene::{Hit, View};
@@ -49,8 +48,7 @@ pub struct Approach {
 #[derive(Clone, Debug)]
 pub struct Planner {
     config: ApproachConfig,
-    open: [Body; 4],
-    radius_about_tool: f64,
+    open: Open,
 }
 
 impl Planner {
@@ -62,8 +60,7 @@ impl Planner {
     pub fn new(config: ApproachConfig) -> Result<Self, ConfigError> {
         config.validate()?;
         Ok(Self {
-            open: config.gripper.open(),
-            radius_about_tool: config.gripper.radius_about_tool(),
+            open: Open::of(&config.gripper),
             config,
         })
     }
@@ -254,19 +251,20 @@ impl Planner {
             target_counts: view.wood_counts,
             ..*view
         };
-        let (open, radius) = (&self.open, self.radius_about_tool);
+        let open = &self.open;
+        let intervals = advance::intervals(path, open);
         // Most ways that collide do so on the transit, and looking for the least slack takes longer.
         let quick = View {
             any: true,
             ..before
         };
-        advance::transit(path, open, radius, scene, &quick, config)
+        advance::transit(path, &intervals, open, scene, &quick, config)
             .map_err(|(hit, time)| clearance_of(&hit, time, Stage::Transit, 0.0))?;
         let before = View {
             any: false,
             ..before
         };
-        let passed = advance::transit(path, open, radius, scene, &before, config)
+        let passed = advance::transit(path, &intervals, open, scene, &before, config)
             .map_err(|(hit, time)| clearance_of(&hit, time, Stage::Transit, 0.0))?;
         let passed = passed.map(|(hit, time)| {
             let less = hit.slack() - advance::floor(hit.slack(), config.resolution_m);
@@ -429,7 +427,7 @@ impl Way<'_> {
 
     fn all_reached(&self, path: &Path) -> Result<(), Refusal> {
         let step = path.pre_grasp_s() / (REACH_SAMPLES - 1) as f64;
-        (0..REACH_SAMPLES).try_for_each(|i| self.reached(&path.sample(i as f64 * step).position))
+        (0..REACH_SAMPLES).try_for_each(|i| self.reached(&path.place(i as f64 * step)))
     }
 
     /// The places between start and pre-grasp to try: none; then, without a tilt, one before the fruit, from

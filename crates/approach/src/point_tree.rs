@@ -1,6 +1,6 @@
-use crate::body::Body;
 use nalgebra::{Point3, Vector3};
 use std::collections::HashMap;
+use std::hash::{BuildHasherDefault, Hasher};
 
 /// Balls in a leaf of the tree.
 const LEAF: usize = 4;
@@ -13,16 +13,24 @@ pub(crate) struct Ball {
 }
 
 impl Ball {
-    fn around(balls: &[Self]) -> Self {
-        let (mut low, mut high) = (balls[0].center, balls[0].center);
+    /// The ball about the middle of a box that holds these balls, whose centres span the box.
+    fn around(balls: &[Self], low: &Point3<f64>, high: &Point3<f64>) -> Self {
+        let center = nalgebra::center(low, high);
+        let mut radius: f64 = 0.0;
         for ball in balls {
-            low = low.inf(&ball.center);
-            high = high.sup(&ball.center);
+            let squared = (ball.center - center).norm_squared();
+            let room = radius - ball.radius;
+            // Most balls reach no farther than those before: no root for them.
+            if room < 0.0 || squared > room * room {
+                radius = radius.max(squared.sqrt() + ball.radius);
+            }
         }
-        let center = nalgebra::center(&low, &high);
-        let far = |ball: &Self| (ball.center - center).norm() + ball.radius;
-        let radius = balls.iter().map(far).fold(0.0, f64::max);
         Self { center, radius }
+    }
+
+    /// Distance of the surfaces of two balls, negative where they overlap.
+    pub(crate) fn gap(&self, other: &Self) -> f64 {
+        (self.center - other.center).norm() - self.radius - other.radius
     }
 }
 
@@ -76,21 +84,28 @@ impl PointTree {
         self.balls.is_empty()
     }
 
-    /// Distance from the nearest ball to the nearest of `bodies` where it is under `bound`, and the
-    /// ball's centre. The first ball found nearer than `enough` ends the search.
+    /// The ball about all of them.
+    pub(crate) fn around(&self) -> Option<&Ball> {
+        self.nodes.first().map(|root| &root.ball)
+    }
+
+    /// Distance from the nearest ball where it is under `bound`, and the ball's centre; `from` is the distance from a
+    /// point. The first ball found nearer than `enough` ends the search.
+    #[inline]
     pub(crate) fn nearest(
         &self,
-        bodies: &[Body],
+        from: impl Fn(&Point3<f64>) -> f64,
         bound: f64,
         enough: f64,
     ) -> Option<(f64, Point3<f64>)> {
+        let distance = |ball: &Ball| from(&ball.center) - ball.radius;
         let mut best = None;
         let mut bound = bound;
         // As deep as a balanced tree of 2³² leaves.
         let mut stack = [0_u32; 64];
         let mut depth = 0;
         if let Some(root) = self.nodes.first()
-            && distance(bodies, &root.ball) < bound
+            && distance(&root.ball) < bound
         {
             depth = 1;
         }
@@ -100,7 +115,7 @@ impl PointTree {
             let node = &self.nodes[index as usize];
             if node.last > node.first {
                 for ball in &self.balls[node.first as usize..node.last as usize] {
-                    let d = distance(bodies, ball);
+                    let d = distance(ball);
                     if d < bound {
                         bound = d;
                         best = Some((d, ball.center));
@@ -112,8 +127,8 @@ impl PointTree {
                 continue;
             }
             let (left, right) = (index + 1, node.right);
-            let d_left = distance(bodies, &self.nodes[left as usize].ball);
-            let d_right = distance(bodies, &self.nodes[right as usize].ball);
+            let d_left = distance(&self.nodes[left as usize].ball);
+            let d_right = distance(&self.nodes[right as usize].ball);
             // The nearer child last, to be looked at first.
             let order = if d_left < d_right {
                 [(d_right, right), (d_left, left)]
@@ -131,33 +146,24 @@ impl PointTree {
     }
 }
 
-#[inline(always)]
-fn distance(bodies: &[Body], ball: &Ball) -> f64 {
-    let mut least = f64::INFINITY;
-    for body in bodies {
-        least = least.min(body.distance_to_point(&ball.center));
-    }
-    least - ball.radius
-}
-
 /// Builds the node of `balls[first..last]`, which is not empty, and those below it.
 fn split(balls: &mut [Ball], first: usize, last: usize, nodes: &mut Vec<Node>) {
     let part = &mut balls[first..last];
     let index = nodes.len();
     let leaf = part.len() <= LEAF;
+    let (mut low, mut high) = (part[0].center, part[0].center);
+    for ball in &*part {
+        low = low.inf(&ball.center);
+        high = high.sup(&ball.center);
+    }
     nodes.push(Node {
-        ball: Ball::around(part),
+        ball: Ball::around(part, &low, &high),
         right: 0,
         first: first as u32,
         last: if leaf { last as u32 } else { first as u32 },
     });
     if leaf {
         return;
-    }
-    let (mut low, mut high) = (part[0].center, part[0].center);
-    for ball in &*part {
-        low = low.inf(&ball.center);
-        high = high.sup(&ball.center);
     }
     let axis = (high - low).imax();
     let middle = part.len() / 2;
@@ -167,34 +173,70 @@ fn split(balls: &mut [Ball], first: usize, last: usize, nodes: &mut Vec<Node>) {
     split(balls, first + middle, last, nodes);
 }
 
+/// What a cell holds.
+#[derive(Clone, Copy)]
 struct Cell {
     low: Point3<f64>,
     high: Point3<f64>,
     count: usize,
 }
 
+/// A hash of a cell's three numbers: nobody chooses them to collide, and a frame has a hundred thousand points.
+#[derive(Clone, Copy, Default)]
+struct CellHasher(u64);
+
+impl Hasher for CellHasher {
+    fn finish(&self) -> u64 {
+        // The table takes its place from the low bits and its tag from the high ones.
+        self.0 ^ (self.0 >> 32)
+    }
+
+    fn write(&mut self, bytes: &[u8]) {
+        for &byte in bytes {
+            self.write_u64(u64::from(byte));
+        }
+    }
+
+    fn write_i32(&mut self, number: i32) {
+        self.write_u64(u64::from(number.cast_unsigned()));
+    }
+
+    fn write_u64(&mut self, number: u64) {
+        // 2⁶⁴ over the golden ratio (Knuth 1998, section 6.4).
+        self.0 = (self.0.rotate_left(21) ^ number).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    }
+}
+
+/// The largest whole number that is not larger, as `floor` gives it, without its call.
+fn floor(x: f64) -> i32 {
+    let whole = x as i32;
+    whole.saturating_sub(i32::from(f64::from(whole) > x))
+}
+
 /// One ball for each cell with enough points; in the order of the cells.
-pub(crate) fn cells(points: &[Point3<f64>], voxel_m: f64, least: usize) -> Vec<Ball> {
+pub(crate) fn cells<'a>(
+    points: impl IntoIterator<Item = &'a Point3<f64>>,
+    voxel_m: f64,
+    least: usize,
+) -> Vec<Ball> {
     if !(voxel_m > 0.0) {
         return Vec::new();
     }
-    let mut cells: HashMap<[i32; 3], Cell> = HashMap::new();
-    for p in points.iter().filter(|p| p.iter().all(|c| c.is_finite())) {
-        let key = [p.x, p.y, p.z].map(|c| (c / voxel_m).floor() as i32);
-        cells
-            .entry(key)
-            .and_modify(|cell| {
-                cell.low = cell.low.inf(p);
-                cell.high = cell.high.sup(p);
-                cell.count += 1;
-            })
-            .or_insert(Cell {
-                low: *p,
-                high: *p,
-                count: 1,
-            });
+    let mut cells: HashMap<(i32, i32, i32), Cell, BuildHasherDefault<CellHasher>> =
+        HashMap::default();
+    let finite = |p: &&Point3<f64>| p.iter().all(|c| c.is_finite());
+    for p in points.into_iter().filter(finite) {
+        let [x, y, z] = [p.x, p.y, p.z].map(|c| floor(c / voxel_m));
+        let cell = cells.entry((x, y, z)).or_insert(Cell {
+            low: *p,
+            high: *p,
+            count: 0,
+        });
+        cell.low = cell.low.inf(p);
+        cell.high = cell.high.sup(p);
+        cell.count += 1;
     }
-    let mut kept: Vec<([i32; 3], Ball)> = cells
+    let mut kept: Vec<((i32, i32, i32), Ball)> = cells
         .into_iter()
         .filter(|(_, cell)| cell.count >= least)
         .map(|(key, cell)| {
@@ -206,7 +248,7 @@ pub(crate) fn cells(points: &[Point3<f64>], voxel_m: f64, least: usize) -> Vec<B
             (key, ball)
         })
         .collect();
-    // The order of a hash map differs from run to run.
+    // The order of a hash map is that in which the cells came.
     kept.sort_unstable_by_key(|(key, _)| *key);
     kept.into_iter().map(|(_, ball)| ball).collect()
 }
@@ -214,6 +256,7 @@ pub(crate) fn cells(points: &[Point3<f64>], voxel_m: f64, least: usize) -> Vec<B
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::body::Body;
     use proptest::prelude::*;
 
     fn points(n: usize) -> impl Strategy<Value = Vec<Point3<f64>>> {
@@ -228,8 +271,8 @@ mod tests {
         fn the_nearest_ball_is_found(points in points(300), a in prop::array::uniform3(-0.5..0.5f64), bound in 0.0..0.5f64) {
             let body = Body::capsule(a.into(), Point3::new(0.1, 0.2, 0.3), 0.02);
             let balls = cells(&points, 0.03, 1);
-            let least = balls.iter().map(|b| distance(&[body], b)).fold(f64::INFINITY, f64::min);
-            let found = PointTree::of_balls(balls).nearest(&[body], bound, f64::NEG_INFINITY);
+            let least = balls.iter().map(|b| body.distance_to_point(&b.center) - b.radius).fold(f64::INFINITY, f64::min);
+            let found = PointTree::of_balls(balls).nearest(|p| body.distance_to_point(p), bound, f64::NEG_INFINITY);
             prop_assert_eq!(found.map(|f| f.0), (least < bound).then_some(least));
         }
 
@@ -238,8 +281,26 @@ mod tests {
             prop_assume!(!points.is_empty());
             let body = Body::capsule(a.into(), Point3::new(0.1, 0.2, 0.3), 0.02);
             let least = points.iter().map(|p| body.distance_to_point(p)).fold(f64::INFINITY, f64::min);
-            let (d, _) = PointTree::of_points(&points, 0.02, 1).nearest(&[body], 10.0, f64::NEG_INFINITY).unwrap();
+            let (d, _) = PointTree::of_points(&points, 0.02, 1).nearest(|p| body.distance_to_point(p), 10.0, f64::NEG_INFINITY).unwrap();
             prop_assert!(d <= least + 1e-12 && d >= least - 0.02 * 3.0_f64.sqrt(), "{d} {least}");
+        }
+    }
+
+    #[test]
+    fn floors_are_those_of_the_standard_library() {
+        for x in [
+            0.0,
+            -0.0,
+            0.5,
+            -0.5,
+            3.0,
+            -3.0,
+            -3.000_001,
+            1e12,
+            -1e12,
+            2_147_483_647.5,
+        ] {
+            assert_eq!(floor(x), x.floor() as i32, "{x}");
         }
     }
 
@@ -249,6 +310,6 @@ mod tests {
         assert!(PointTree::of_points(&stray, 0.01, 2).is_empty());
         assert!(PointTree::of_points(&stray, 0.0, 1).is_empty());
         assert_eq!(PointTree::of_points(&stray, 0.01, 1).len(), 1);
-        assert!(PointTree::default().nearest(&[], 1.0, 0.0).is_none());
+        assert!(PointTree::default().nearest(|_| 0.0, 1.0, 0.0).is_none());
     }
 }

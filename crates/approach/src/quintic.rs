@@ -88,6 +88,12 @@ impl<const D: usize> Quintic<D> {
         state
     }
 
+    /// The position alone at a time.
+    pub(crate) fn position(&self, time_s: f64) -> SVector<f64, D> {
+        let [rest @ .., last] = &self.coefficients;
+        rest.iter().rev().fold(*last, |sum, c| sum * time_s + c)
+    }
+
     /// A bound on the speed from one time to another, in the unit of the position per second.
     ///
     /// The velocity's Bernstein coefficients over the interval hold it in their convex hull

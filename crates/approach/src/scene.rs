@@ -1,4 +1,5 @@
 use crate::body::Body;
+use crate::outline::Placed;
 use crate::point_tree::{Ball, PointTree, cells};
 use crate::{ClearanceConfig, Obstacle};
 use nalgebra::Point3;
@@ -28,15 +29,23 @@ impl Scene {
         cloud: &[Point3<f64>],
         config: &ClearanceConfig,
     ) -> Self {
-        let near = near_apples(&apples, cloud, config.region_m);
-        let balls = cells(&near, config.voxel_m, config.voxel_min_points);
+        let region = around_apples(&apples, config.region_m);
+        let near = |p: &&Point3<f64>| region.is_some_and(|region| region.contains(p));
+        let near = cloud.iter().filter(near);
+        let balls = cells(near, config.voxel_m, config.voxel_min_points);
         let mut on_apples = vec![Vec::new(); apples.len()];
         let mut rest = Vec::new();
         for ball in balls {
+            // A root for the few apples that are that near, and a little for rounding.
+            let about = |apple: &Sphere| {
+                let reach = apple.radius + config.own_band_m + 1e-9;
+                (ball.center - apple.center).norm_squared() <= reach * reach
+            };
             let nearest = apples
                 .iter()
-                .map(|apple| apple.signed_distance(&ball.center))
                 .enumerate()
+                .filter(|(_, apple)| about(apple))
+                .map(|(number, apple)| (number, apple.signed_distance(&ball.center)))
                 .min_by(|a, b| a.1.total_cmp(&b.1));
             match nearest {
                 Some((apple, distance)) if distance <= config.own_band_m => {
@@ -69,27 +78,23 @@ impl Scene {
     }
 }
 
-fn near_apples(apples: &[Sphere], cloud: &[Point3<f64>], region_m: f64) -> Vec<Point3<f64>> {
-    let Some(around) = Aabb::around(apples.iter().map(|a| a.center)) else {
-        return Vec::new();
-    };
+/// The box that reaches this far beyond every apple.
+fn around_apples(apples: &[Sphere], region_m: f64) -> Option<Aabb> {
+    let around = Aabb::around(apples.iter().map(|a| a.center))?;
     let largest = apples.iter().map(|a| a.radius).fold(0.0, f64::max);
     let reach = nalgebra::Vector3::repeat(region_m + largest);
-    let region = Aabb {
+    Some(Aabb {
         min: around.min - reach,
         max: around.max + reach,
-    };
-    cloud
-        .iter()
-        .filter(|p| region.contains(p))
-        .copied()
-        .collect()
+    })
 }
 
 /// The parts of the gripper together with a ball about them.
 pub(crate) struct Shape<'a> {
     bodies: &'a [Body],
     around: Ball,
+    /// The same as an outline, where it is a gripper's.
+    outline: Option<Placed>,
 }
 
 impl<'a> Shape<'a> {
@@ -109,7 +114,44 @@ impl<'a> Shape<'a> {
         Self {
             bodies,
             around: Ball { center, radius },
+            outline: None,
         }
+    }
+
+    /// The bodies of a gripper, of which this is the outline.
+    pub(crate) fn with_outline(bodies: &'a [Body], outline: Placed) -> Self {
+        Self {
+            outline: Some(outline),
+            ..Self::new(bodies)
+        }
+    }
+
+    /// Distance from the balls of a tree where it is under `bound`, and the centre of the nearest.
+    fn nearest_of(&self, tree: &PointTree, bound: f64, enough: f64) -> Option<(f64, Point3<f64>)> {
+        if tree.around()?.gap(&self.around) >= bound {
+            return None;
+        }
+        match &self.outline {
+            Some(outline) => tree.nearest(|p| outline.distance(p), bound, enough),
+            None => tree.nearest(|p| self.distance_by_bodies(p), bound, enough),
+        }
+    }
+
+    fn distance_by_bodies(&self, point: &Point3<f64>) -> f64 {
+        let distances = self.bodies.iter().map(|b| b.distance_to_point(point));
+        distances.fold(f64::INFINITY, f64::min)
+    }
+
+    /// Distance from a point where it is under `bound`.
+    fn distance_to_point(&self, point: &Point3<f64>, bound: f64) -> Option<f64> {
+        if (point - self.around.center).norm() - self.around.radius >= bound {
+            return None;
+        }
+        let distance = match &self.outline {
+            Some(outline) => outline.distance(point),
+            None => self.distance_by_bodies(point),
+        };
+        (distance < bound).then_some(distance)
     }
 
     fn distance(&self, segment: &Segment, bound: f64) -> Option<(f64, Point3<f64>, usize)> {
@@ -200,19 +242,16 @@ impl Scene {
                 continue;
             }
             let obstacle = Obstacle::Apple(number);
-            let ball = Segment {
-                start: apple.center,
-                end: apple.center,
-            };
-            if let Some((distance, point, _)) = shape.distance(&ball, bound + margin + apple.radius)
-            {
-                take(distance - apple.radius, margin, obstacle, point, &mut bound);
+            let reach = bound + margin + apple.radius;
+            if let Some(distance) = shape.distance_to_point(&apple.center, reach) {
+                let distance = distance - apple.radius;
+                take(distance, margin, obstacle, apple.center, &mut bound);
             }
             if is_target {
                 continue;
             }
             if let Some((distance, point)) =
-                self.on_apples[number].nearest(shape.bodies, bound + margin, enough + margin)
+                shape.nearest_of(&self.on_apples[number], bound + margin, enough + margin)
             {
                 take(distance, margin, obstacle, point, &mut bound);
             }
@@ -240,8 +279,7 @@ impl Scene {
         }
         let margin = config.cloud_margin_m;
         if let Some((distance, point)) =
-            self.rest
-                .nearest(shape.bodies, bound + margin, enough + margin)
+            shape.nearest_of(&self.rest, bound + margin, enough + margin)
         {
             take(distance, margin, Obstacle::Cloud, point, &mut bound);
         }
@@ -276,26 +314,25 @@ impl Scene {
         };
         let far = f64::INFINITY;
         let all = f64::NEG_INFINITY;
-        let before_tree =
-            |tree: &PointTree| tree.nearest(still.bodies, far, all).map_or(far, |b| b.0);
+        // A distance before that is not under the margin allows as much as any other.
+        let before_tree = |tree: &PointTree, margin: f64| {
+            still.nearest_of(tree, margin, all).map_or(far, |b| b.0)
+        };
         let margin = config.apple_margin_m;
         for (number, apple) in self.apples.iter().enumerate() {
             if number == view.target || !view.shows(number) {
                 continue;
             }
-            let center = Segment {
-                start: apple.center,
-                end: apple.center,
-            };
-            if let Some((after, point, _)) = moved.distance(&center, margin + apple.radius) {
-                let before = still.distance(&center, far).map_or(far, |b| b.0);
+            let center = apple.center;
+            if let Some(after) = moved.distance_to_point(&center, margin + apple.radius) {
+                let before = still.distance_to_point(&center, far).unwrap_or(far);
                 let radius = apple.radius;
                 let obstacle = Obstacle::Apple(number);
-                judge(margin, before - radius, after - radius, obstacle, point);
+                judge(margin, before - radius, after - radius, obstacle, center);
             }
             let tree = &self.on_apples[number];
-            if let Some((after, point)) = tree.nearest(moved.bodies, margin, all) {
-                let before = before_tree(tree);
+            if let Some((after, point)) = moved.nearest_of(tree, margin, all) {
+                let before = before_tree(tree, margin);
                 judge(margin, before, after, Obstacle::Apple(number), point);
             }
         }
@@ -312,8 +349,8 @@ impl Scene {
             }
         }
         let margin = config.cloud_margin_m;
-        if let Some((after, point)) = self.rest.nearest(moved.bodies, margin, all) {
-            let before = before_tree(&self.rest);
+        if let Some((after, point)) = moved.nearest_of(&self.rest, margin, all) {
+            let before = before_tree(&self.rest, margin);
             judge(margin, before, after, Obstacle::Cloud, point);
         }
         worst

@@ -2,6 +2,7 @@
 
 use crate::Gripper;
 use crate::body::Body;
+use crate::outline::{Outline, Placed};
 use crate::scene::{Hit, Scene, Shape, View};
 use crate::{ClearanceConfig, Path, Stage};
 use nalgebra::{Isometry3, Vector3};
@@ -10,6 +11,7 @@ use pomona_geometry::Sphere;
 /// The straight way to the apple and back, in the tool frame at the apple and in the base's.
 pub(crate) struct Straight {
     bodies: [Body; 4],
+    outline: Placed,
     grasp: Isometry3<f64>,
     back: Vector3<f64>,
     apple: Sphere,
@@ -25,6 +27,7 @@ impl Straight {
     ) -> Self {
         let swept = gripper.swept(standoff_m.max(retreat_m), apple.radius);
         Self {
+            outline: Placed::new(&Outline::of(&swept), &grasp),
             bodies: swept.map(|body| body.moved(&grasp)),
             back: grasp * Vector3::new(-retreat_m, 0.0, 0.0),
             grasp,
@@ -46,7 +49,7 @@ impl Straight {
         view: &View<'_>,
         config: &ClearanceConfig,
     ) -> Result<Option<(Hit, Stage)>, (Hit, Stage)> {
-        let shape = Shape::new(&self.bodies);
+        let shape = Shape::with_outline(&self.bodies, self.outline);
         let hit = scene.nearest(&shape, view, config, config.cutoff_m);
         if let Some(hit) = hit
             && hit.slack() < 0.0

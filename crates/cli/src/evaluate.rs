@@ -10,11 +10,13 @@ use crate::terminal::{self, Terminal};
 use anyhow::bail;
 use clap::Args;
 use clap::builder::PossibleValuesParser;
-use pomona::{Config, Method, PickError, Picker, Record};
+use pomona::{
+    ApproachConfig, Config, Method, Outcome, PickError, Picker, Record, Robot, RobotFromCamera,
+};
 use pomona_cloud::Frame;
 use pomona_evaluate::{
-    CALIPER_SCHEMA, PickMethod, SCHEMA, Subject, apples_csv, caliper_page, evaluate,
-    measure_calipers, read_calipers, report_page,
+    CALIPER_SCHEMA, CalibrationNoise, PickMethod, RobotTrial, SCHEMA, Subject, apples_csv,
+    caliper_page, evaluate, evaluate_with_robot, measure_calipers, read_calipers, report_page,
 };
 use serde::de::IntoDeserializer;
 use serde::de::value::{Error, StrDeserializer};
@@ -28,6 +30,7 @@ Examples:
   pomona evaluate orchard@1000 --method paper --method robust --out out
                                                       other scenes: those of the seeds 1000, 1001, ...
   pomona evaluate orchard --count 50 --json --out out | jq '.results[].angle.error.mean'
+  pomona evaluate orchard --robot --out out           the gripper in the base's frame, after a simulated calibration
   pomona evaluate --calipers calipers.csv frames/a frames/b --out out
   pomona evaluate --detection tiles --out out         the built-in model on images with labels
   pomona evaluate --detection tiles --model built-in --model mine.onnx --boxes theirs.json --out out
@@ -74,6 +77,24 @@ pub(crate) struct EvaluateArguments {
     /// pair of frames with each other.
     #[arg(long, value_name = "FILE", conflicts_with = "count")]
     calipers: Option<PathBuf>,
+    /// Send a robot to the apples: for each frame a camera is mounted on it and calibrated from noisy samples, the picks
+    /// are planned, and the gripper is compared with the truth in the base's frame. With =FILE a robot's settings
+    /// (see `pomona config --robot`).
+    #[arg(long, value_name = "FILE", num_args = 0..=1, require_equals = true, conflicts_with = "calipers")]
+    #[allow(
+        clippy::option_option,
+        reason = "an option whose value may be left out, as clap has it"
+    )]
+    robot: Option<Option<PathBuf>>,
+    /// Noise of the calibration's samples in rotation, root mean square of the angle.
+    #[arg(long, value_name = "DEG", default_value_t = 0.2, requires = "robot")]
+    calibration_noise_deg: f64,
+    /// Noise of the calibration's samples in place, root mean square of the length.
+    #[arg(long, value_name = "MM", default_value_t = 1.0, requires = "robot")]
+    calibration_noise_mm: f64,
+    /// Samples of the calibration.
+    #[arg(long, value_name = "N", default_value_t = 15, requires = "robot")]
+    calibration_poses: usize,
     /// Print the result to standard output as JSON in place of the table.
     #[arg(long)]
     json: bool,
@@ -107,6 +128,32 @@ impl PickMethod for Named {
     fn answer(&self, frame: &Frame, seed: u64) -> Result<Record, PickError> {
         self.picker.answer(frame, seed)
     }
+
+    fn outcome(
+        &self,
+        frame: &Frame,
+        seed: u64,
+        robot_from_camera: &RobotFromCamera,
+    ) -> Result<Outcome, PickError> {
+        self.picker.outcome(frame, seed, robot_from_camera)
+    }
+}
+
+/// The robot that is asked for.
+fn trial(arguments: &EvaluateArguments) -> anyhow::Result<Option<RobotTrial>> {
+    let config = match &arguments.robot {
+        None => return Ok(None),
+        Some(None) => ApproachConfig::default(),
+        Some(Some(path)) => ApproachConfig::read(path)?,
+    };
+    Ok(Some(RobotTrial {
+        robot: Robot::new(config)?,
+        noise: CalibrationNoise {
+            poses: arguments.calibration_poses,
+            rotation_rad: arguments.calibration_noise_deg.to_radians(),
+            translation_m: arguments.calibration_noise_mm / 1e3,
+        },
+    }))
 }
 
 /// The methods that are asked for, and after them the variants.
@@ -162,6 +209,7 @@ fn against_truth(
     terminal: Terminal,
 ) -> anyhow::Result<()> {
     refuse_foreign(&arguments.out, EVALUATION, SCHEMA)?;
+    let trial = trial(arguments)?;
     let mut subjects: Vec<Subject> = Vec::new();
     for name in &arguments.subjects {
         for subject in Subject::named(name, arguments.count)? {
@@ -178,7 +226,11 @@ fn against_truth(
         }
     }
     let bar = progress::bar(subjects.len());
-    let evaluation = evaluate(&subjects, methods, arguments.seed, &|| bar.inc(1))?;
+    let (seed, done) = (arguments.seed, || bar.inc(1));
+    let evaluation = match &trial {
+        Some(trial) => evaluate_with_robot(&subjects, methods, seed, trial, &done)?,
+        None => evaluate(&subjects, methods, seed, &done)?,
+    };
     bar.finish_and_clear();
     let output = OutputFolder::new(&arguments.out)?;
     write_text(&output, EVALUATION, &json(&evaluation)?)?;
@@ -270,6 +322,10 @@ mod tests {
             seed: 0,
             count: Some(1),
             calipers: None,
+            robot: None,
+            calibration_noise_deg: 0.2,
+            calibration_noise_mm: 1.0,
+            calibration_poses: 15,
             json: false,
             detection: detection::DetectionArguments::default(),
         }
@@ -323,6 +379,26 @@ mod tests {
             refused.contains("picks") && refused.contains("--out"),
             "{refused}"
         );
+    }
+
+    #[test]
+    fn a_robot_is_measured_in_the_base_and_bad_noise_refused() {
+        let dir = tempfile::tempdir().unwrap();
+        let mut arguments = arguments(&["robust"]);
+        arguments.out = dir.path().join("out");
+        arguments.robot = Some(None);
+        let terminal = Terminal::new(clap::ColorChoice::Never);
+        run(&arguments, terminal).unwrap();
+        let text = std::fs::read_to_string(arguments.out.join(EVALUATION)).unwrap();
+        let evaluation: pomona_evaluate::Evaluation = serde_json::from_str(&text).unwrap();
+        let page = text::evaluation(&evaluation, terminal);
+        assert!(
+            page.contains("sphere center") && page.contains("NEES"),
+            "{page}"
+        );
+        arguments.calibration_noise_mm = -1.0;
+        let refused = run(&arguments, terminal).unwrap_err().to_string();
+        assert!(refused.contains("-0.001"), "{refused}");
     }
 
     #[test]

@@ -76,6 +76,9 @@ pub struct DetectorReport {
     /// What ran the network; absent where none of ours did.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub runtime: Option<RuntimeReport>,
+    /// What was assumed about the model, and how to state it.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub notes: Vec<String>,
 }
 
 /// What ran a network.

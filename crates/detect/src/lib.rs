@@ -1,21 +1,111 @@
 //! Apples in a colour image: ONNX detectors of the YOLO family, decoded, tiled and merged, or any other
 //! network behind one trait.
 //!
+//! A detector of one's own, here one that takes anything red for an apple:
+//!
+//! ```
+//! use pomona_cloud::ColorImage;
+//! use pomona_detect::{DetectError, Detection, Detector, DetectorReport};
+//!
+//! struct Redness;
+//!
+//! impl Detector for Redness {
+//!     fn detect(&self, image: &ColorImage) -> Result<Vec<Detection>, DetectError> {
+//!         let red = |[r, g, b]: [u8; 3]| r > 150 && g < 80 && b < 80;
+//!         let pixels = image.pixels.iter().enumerate().filter(|(_, pixel)| red(**pixel));
+//!         let places = pixels.map(|(k, _)| (k % image.width, k / image.width));
+//!         // The box around all of them.
+//!         let around = places.map(|(u, v)| [u, v, u + 1, v + 1]).reduce(|a, b| {
+//!             [a[0].min(b[0]), a[1].min(b[1]), a[2].max(b[2]), a[3].max(b[3])]
+//!         });
+//!         let detection = |edges: [usize; 4]| {
+//!             let [x_min, y_min, x_max, y_max] = edges.map(|edge| edge as f64);
+//!             Detection { x_min, y_min, x_max, y_max, score: 1.0, class: 0 }
+//!         };
+//!         Ok(around.map(detection).into_iter().collect())
+//!     }
+//!
+//!     fn report(&self) -> DetectorReport {
+//!         DetectorReport { name: "redness".to_owned(), ..DetectorReport::default() }
+//!     }
+//! }
+//!
+//! let mut image = ColorImage::filled(8, 6, [40, 120, 40]);
+//! image.pixels[2 * 8 + 3] = [200, 30, 30];
+//! image.pixels[3 * 8 + 4] = [190, 20, 40];
+//! let seen = Redness.detect(&image)?;
+//! assert_eq!([seen[0].x_min, seen[0].y_min, seen[0].x_max, seen[0].y_max], [3.0, 2.0, 5.0, 4.0]);
+//! # Ok::<(), DetectError>(())
+//! ```
+//!
 //! # Concepts
 //!
 //! - A [`Detector`] takes a colour image and gives [`Detection`]s: box, score and class, in the image's own
 //!   pixels. Implement it for a camera that brings its own network.
+//! - [`DetectorOptions`] open one from an ONNX file, or the built-in one. That is an [`OnnxDetector`]: a
+//!   [`Network`], which a runtime loaded, and what its inputs and outputs mean.
+//! - The meaning is recognised from the network's inputs and outputs; a [`ModelDescription`], a small TOML beside
+//!   the model, states what they do not tell, and wins where it says something.
+//! - A [`Letterbox`] puts a window of the image into the network's input, and boxes back. Large images are looked
+//!   at in overlapping tiles; [`fuse`] makes one set of boxes of what all of them show, [`suppress`] is plain
+//!   suppression.
+//!
+//! | [`Family`] | outputs | meaning |
+//! |---|---|---|
+//! | `yolov3` | 2 or 3 of `[1, A·(5+C), h, w]`, other orders of axes too | logits, with anchors |
+//! | `yolov3-nms` | `[1, N, 4]`, `[1, C, N]`, `[M, 3]`; the ONNX zoo's | corners, scores, rows that its own suppression left |
+//! | `yolov5`, also v4 and v7 | `[1, N, 5+C]` | centre and size; anything at all; classes |
+//! | `yolov8`, also v9 and v11 | `[1, 4+C, N]` | centre and size; classes |
+//! | `yolox` | `[1, N, 5+C]` | the same as v5 relative to the cells |
+//!
+//! A network is never trusted: outputs of another shape are errors that name them, boxes with a number that is
+//! not finite are left out.
 //!
 //! # Not here
 //!
-//! Depth, robots, and what an apple weighs. Box files are read and written by `pomona-cloud`.
+//! Depth, robots, and what an apple weighs; training; tracking from image to image; networks that give masks,
+//! key points or turned boxes. Box files are read and written by `pomona-cloud`.
+//!
+//! # Features
+//!
+//! `onnxruntime` loads ONNX Runtime while running, if a library of it is there; `embedded` brings a runtime in
+//! pure Rust. Both are on unless told otherwise.
+//!
+//! # References
+//!
+//! - Redmon and Farhadi, `YOLOv3`: An Incremental Improvement, arXiv 1804.02767.
+//! - Ge et al., YOLOX: Exceeding YOLO Series in 2021, arXiv 2107.08430.
+//! - Solovyev, Wang and Gabruseva, Weighted boxes fusion, Image and Vision Computing 107, 2021,
+//!   doi 10.1016/j.imavis.2021.104117.
 
+mod built_in;
+mod classes;
+mod decode;
+mod description;
 mod detection;
 mod error;
+mod family;
+mod fault;
+mod fuse;
+mod letterbox;
+mod names;
 mod network;
+mod onnx_detector;
 mod options;
+mod ports;
+mod resample;
+mod runtime;
+mod suppress;
+mod tiling;
 
+pub use description::{Coordinates, ModelDescription};
 pub use detection::{Detection, Detector, DetectorReport, RuntimeReport};
 pub use error::DetectError;
+pub use family::Family;
+pub use fuse::{View, fuse};
+pub use letterbox::{ChannelOrder, Letterbox, Padding, Preparation};
 pub use network::{Element, Network, Port, Tensor};
+pub use onnx_detector::OnnxDetector;
 pub use options::{ClassChoice, DetectorOptions, RuntimeChoice, TilingChoice};
+pub use runtime::{ModelSource, open_network};
+pub use suppress::{Scope, suppress};

@@ -57,6 +57,11 @@ pub trait Network: Send + Sync {
     /// [`DetectError::Model`] where the model refuses its input or fails.
     fn run(&self, inputs: &[Tensor]) -> Result<Vec<Tensor>, DetectError>;
 
+    /// What the exporter wrote into the model's file, such as the classes' names; empty where nothing.
+    fn metadata(&self) -> &[(String, String)] {
+        &[]
+    }
+
     /// What runs it.
     fn report(&self) -> RuntimeReport;
 }

@@ -1,4 +1,7 @@
-use crate::{DetectError, Detector};
+use crate::{
+    DetectError, Detector, ModelDescription, ModelSource, OnnxDetector, built_in, open_network,
+};
+use serde::Deserialize;
 use std::path::PathBuf;
 
 /// Which runtime runs the network.
@@ -16,11 +19,13 @@ pub enum RuntimeChoice {
 }
 
 /// Which of the model's classes is an apple.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[serde(untagged, expecting = "expected a class's name or number")]
 pub enum ClassChoice {
     /// By its number.
     Number(usize),
-    /// By its name in the description beside the model or in the model's own metadata.
+    /// By its name in the description beside the model or in the model's own metadata, or among COCO's where a
+    /// model of 80 classes has no names.
     Name(String),
 }
 
@@ -44,15 +49,15 @@ pub enum TilingChoice {
 /// How to open a detector.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct DetectorOptions {
-    /// The model, ONNX; the built-in one where absent. A description `MODEL.toml` beside it is read.
+    /// The model, ONNX; the built-in one where absent. `MODEL.toml` beside `MODEL.onnx` is read.
     pub model: Option<PathBuf>,
     /// What runs it.
     pub runtime: RuntimeChoice,
-    /// The class that counts; by the description, else class 0, where absent.
+    /// The class that counts; by the description, else the one named `apple`, else class 0, where absent.
     pub class: Option<ClassChoice>,
-    /// Lowest score that counts, 0 to 1; by the description, else the family's usual, where absent.
+    /// Lowest score that counts, 0 to 1; by the description, else 0.25, where absent.
     pub threshold: Option<f64>,
-    /// IoU above which two boxes are one apple, 0 to 1; by the description, else the family's usual.
+    /// IoU above which two boxes are one apple, 0 to 1; by the description, else 0.45.
     pub overlap: Option<f64>,
     /// How a large image is cut.
     pub tiling: TilingChoice,
@@ -65,10 +70,17 @@ impl DetectorOptions {
     ///
     /// [`DetectError`] for a model, a description, a runtime or a setting that cannot be used.
     pub fn open(&self) -> Result<Box<dyn Detector>, DetectError> {
-        Err(DetectError::Runtime {
-            runtime: "detector".to_owned(),
-            problem: "this build holds none".to_owned(),
-            remedy: "give boxes".to_owned(),
-        })
+        let (source, name, description) = match &self.model {
+            Some(path) => (
+                ModelSource::File(path.clone()),
+                path.display().to_string(),
+                ModelDescription::beside(path)?,
+            ),
+            None => built_in::model()?,
+        };
+        // One thread to a run: the tiles are what is shared among the cores.
+        let network = open_network(&source, &self.runtime, 1)?;
+        let detector = OnnxDetector::new(network, name, &description, self)?;
+        Ok(Box::new(detector))
     }
 }

@@ -30,6 +30,24 @@ pub enum EvaluateError {
     /// A method could not work on a frame at all.
     #[error(transparent)]
     Pick(#[from] pomona::PickError),
+    /// The noise of a simulated calibration makes no sense.
+    #[error("noise of the simulated calibration: {name} is {value}, and must be {rule}")]
+    Noise {
+        /// Which number.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+        /// What it must be.
+        rule: &'static str,
+    },
+    /// A simulated calibration failed.
+    #[error("{case}: simulated calibration: {source}; take more poses or less noise")]
+    Calibration {
+        /// The frame it was for.
+        case: String,
+        /// Why.
+        source: Box<dyn std::error::Error + Send + Sync>,
+    },
     /// The system refused a file.
     #[error("{path}: {source}")]
     Io {

@@ -27,6 +27,8 @@
 //! - **Accuracy** is measured against truth, **repeatability** against the mean of a method's own
 //!   answers ([`Repeatability`], the paper's measure); they never share a name.
 //! - **[`Reliability`]** asks whether a method's confidences and standard deviations hold.
+//! - [`evaluate_with_robot`] also mounts a camera on a robot, calibrates it from noisy samples, and
+//!   measures the gripper in the base's frame: a [`BaseRow`] for each answer, a [`BaseResult`] with the error budget.
 //! - [`report_page`] and [`apples_csv`] are what `report.html` and `apples.csv` hold.
 //! - [`measure_calipers`] sets fitted radii beside measured diameters on real frames, and
 //!   aligns the apples of two frames of one tree.
@@ -45,6 +47,7 @@
 //! Gao, Zhou, Cao and Jiang 2022, "An Algorithm for Calculating Apple Picking Direction
 //! Based on 3D Vision", Agriculture 12(8), 1170, doi 10.3390/agriculture12081170.
 
+mod base;
 mod calipers;
 mod comparison;
 mod detection;
@@ -64,6 +67,10 @@ mod statistics;
 mod subject;
 mod table_file;
 
+pub use base::{
+    BaseResult, BaseRow, BudgetTerm, CalibrationNoise, Coverage, DirectionTerms, Mounting, Planned,
+    PlannedRow, PositionTerms, RobotTrial, Term,
+};
 pub use calipers::{
     AlignedApple, Alignment, CALIPER_SCHEMA, Caliper, CaliperFrame, CaliperReport, CaliperResult,
     CaliperRow, measure_calipers, read_calipers,
@@ -87,7 +94,7 @@ pub use result::{AngleErrors, Evaluation, Refusals, SCHEMA, SuiteResult, Timing}
 pub use row::{
     AppleRow, NO_BOX, VISIBLE_APPLE_SHARE, VISIBLE_BRANCH_LENGTH_M, VISIBLE_BRANCH_PIXELS,
 };
-pub use run::evaluate;
+pub use run::{evaluate, evaluate_with_robot};
 pub use statistics::{Share, Spread, Summary};
 pub use subject::Subject;
 pub use table_file::apples_csv;

@@ -1,4 +1,4 @@
-use pomona::{PickError, Picker, Record};
+use pomona::{Evidence, Outcome, PickError, Picker, Record, RobotFromCamera};
 use pomona_cloud::Frame;
 
 /// What can be evaluated: something that answers a frame.
@@ -14,6 +14,23 @@ pub trait PickMethod: Sync {
     ///
     /// Where the frame cannot be worked on at all.
     fn answer(&self, frame: &Frame, seed: u64) -> Result<Record, PickError>;
+
+    /// The same with the answers in a robot's frame too, and what supports them. Without a method's own the answers
+    /// stay in the camera's frame, and nothing is measured in the base's.
+    ///
+    /// # Errors
+    ///
+    /// As [`PickMethod::answer`].
+    fn outcome(
+        &self,
+        frame: &Frame,
+        seed: u64,
+        _robot_from_camera: &RobotFromCamera,
+    ) -> Result<Outcome, PickError> {
+        let record = self.answer(frame, seed)?;
+        let evidence = vec![Evidence::default(); record.picks.len()];
+        Ok(Outcome { record, evidence })
+    }
 }
 
 impl PickMethod for Picker {
@@ -23,5 +40,14 @@ impl PickMethod for Picker {
 
     fn answer(&self, frame: &Frame, seed: u64) -> Result<Record, PickError> {
         Ok(self.pick(frame, seed, None)?.record)
+    }
+
+    fn outcome(
+        &self,
+        frame: &Frame,
+        seed: u64,
+        robot_from_camera: &RobotFromCamera,
+    ) -> Result<Outcome, PickError> {
+        self.pick(frame, seed, Some(robot_from_camera))
     }
 }

@@ -1,5 +1,7 @@
 use crate::statistics::{Share, Spread, Summary};
-use crate::{AppleRow, Comparison, Grouping, LabRow, NO_BOX, Reliability, Repeatability};
+use crate::{
+    AppleRow, BaseResult, Comparison, Grouping, LabRow, NO_BOX, Reliability, Repeatability,
+};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
@@ -54,6 +56,9 @@ pub struct SuiteResult {
     /// Confidences against errors; absent for methods that give none.
     #[serde(default)]
     pub reliability: Option<Reliability>,
+    /// The gripper in the base's frame, where a robot was simulated.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub base: Option<BaseResult>,
     /// Time of each stage.
     pub timing_ms: Option<Timing>,
     /// Errors against what makes an apple hard.
@@ -170,6 +175,7 @@ impl SuiteResult {
             foot_error: Summary::of(&values(rows, |row| row.foot_error)),
             refusals: Refusals::of(rows),
             reliability: Reliability::of(rows),
+            base: BaseResult::of(rows),
             timing_ms: Timing::of(rows),
             groupings: Grouping::all(rows),
             repeatability: Repeatability::of(rows),

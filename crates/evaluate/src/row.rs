@@ -1,3 +1,4 @@
+use crate::BaseRow;
 use nalgebra::{Point3, Vector3};
 use pomona::{Pick, Status, TimingRecord};
 use pomona_geometry::angle_between;
@@ -80,6 +81,9 @@ pub struct AppleRow {
     pub leaves: Option<f64>,
     /// Whether the camera could see apple and branch; absent where the truth does not say.
     pub answerable: Option<bool>,
+    /// The gripper in the base's frame, where a robot was simulated.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub base: Option<BaseRow>,
     /// Milliseconds of each stage.
     pub timing_ms: Option<TimingRecord>,
 }
@@ -134,6 +138,7 @@ impl AppleRow {
             visible_branch_length: branch.and_then(|b| b.visible_length),
             leaves: truth.leaves.map(|n| n as f64),
             answerable: answerable(truth),
+            base: None,
             timing_ms: pick.map(|p| p.timing_ms),
         }
     }

@@ -1,6 +1,6 @@
 use crate::{
-    AppleRow, EvaluateError, Evaluation, PickMethod, SCHEMA, Subject, SuiteResult, compare,
-    match_picks,
+    AppleRow, BaseRow, EvaluateError, Evaluation, PickMethod, RobotTrial, SCHEMA, Subject,
+    SuiteResult, compare, match_picks,
 };
 use rayon::prelude::*;
 
@@ -25,13 +25,39 @@ pub fn evaluate(
     seed: u64,
     done: &(dyn Fn() + Sync),
 ) -> Result<Evaluation, EvaluateError> {
+    run(subjects, methods, seed, None, done)
+}
+
+/// The same with a robot that is sent to the apples: a camera is mounted on it and calibrated for each subject, and
+/// where the gripper ends up is compared with the truth in the base's frame.
+///
+/// # Errors
+///
+/// As [`evaluate`], and [`EvaluateError::Noise`], [`EvaluateError::Calibration`].
+pub fn evaluate_with_robot(
+    subjects: &[Subject],
+    methods: &[&dyn PickMethod],
+    seed: u64,
+    trial: &RobotTrial,
+    done: &(dyn Fn() + Sync),
+) -> Result<Evaluation, EvaluateError> {
+    run(subjects, methods, seed, Some(trial), done)
+}
+
+fn run(
+    subjects: &[Subject],
+    methods: &[&dyn PickMethod],
+    seed: u64,
+    trial: Option<&RobotTrial>,
+    done: &(dyn Fn() + Sync),
+) -> Result<Evaluation, EvaluateError> {
     let suites = suite_names(subjects);
     let numbers = numbers(subjects);
     let answered: Vec<Vec<Answered>> = subjects
         .par_iter()
         .zip(&numbers)
         .map(|(subject, &number)| {
-            let answered = answer(subject, number, methods, seed);
+            let answered = answer(subject, number, methods, seed, trial);
             done();
             answered
         })
@@ -71,12 +97,21 @@ fn answer(
     number: usize,
     methods: &[&dyn PickMethod],
     seed: u64,
+    trial: Option<&RobotTrial>,
 ) -> Result<Vec<Answered>, EvaluateError> {
     let scene = subject.load()?;
+    let mounted = match trial {
+        Some(trial) => Some((trial, trial.mounting(subject, seed)?)),
+        None => None,
+    };
     methods
         .iter()
         .map(|method| {
-            let picks = method.answer(&scene.frame, seed)?.picks;
+            let record = match &mounted {
+                Some((trial, mounting)) => trial.answer(*method, &scene.frame, seed, mounting)?,
+                None => method.answer(&scene.frame, seed)?,
+            };
+            let picks = record.picks;
             let matched = match_picks(&scene.truth.apples, &picks);
             let rows = scene
                 .truth
@@ -85,14 +120,18 @@ fn answer(
                 .zip(&matched)
                 .map(|(apple, pick)| {
                     let pick = pick.map(|p| &picks[p]);
-                    AppleRow::new(
-                        &subject.suite,
-                        &subject.name,
-                        number,
-                        method.name(),
-                        apple,
-                        pick,
-                    )
+                    let base = mounted.as_ref().zip(pick);
+                    AppleRow {
+                        base: base.and_then(|((_, m), pick)| BaseRow::of(m, apple, pick)),
+                        ..AppleRow::new(
+                            &subject.suite,
+                            &subject.name,
+                            number,
+                            method.name(),
+                            apple,
+                            pick,
+                        )
+                    }
                 });
             Ok(Answered {
                 rows: rows.collect(),

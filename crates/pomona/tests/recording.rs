@@ -123,9 +123,13 @@ print(json.dumps(topics, sort_keys=True))
 
 #[test]
 fn the_reader_of_pypi_reads_it_too() {
-    let python = |arguments: &[&str]| Command::new("python3").args(arguments).output();
+    let interpreter = std::env::var_os("PYTHON").unwrap_or_else(|| "python3".into());
+    let python = |arguments: &[&str]| Command::new(&interpreter).args(arguments).output();
     if !python(&["-c", "import mcap.reader"]).is_ok_and(|o| o.status.success()) {
-        println!("skipped: python3 with the package mcap is not installed (pip install mcap)");
+        println!(
+            "skipped: {} has no package mcap (pip install mcap, or name another by PYTHON)",
+            interpreter.display()
+        );
         return;
     }
     let folder = tempfile::tempdir().unwrap();

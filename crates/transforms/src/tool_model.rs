@@ -89,11 +89,21 @@ impl ToolModel {
         tcp: &Position<RobotFrame>,
         orientation: &ToolOrientation,
     ) -> Result<Transform<RobotFrame, ToolFrame>, TransformError> {
-        let onto_x = shortest(&self.tool_axis.vector(), &Vector3::x(), &Vector3::z_axis());
         Transform::from_isometry(&Isometry3::from_parts(
             Translation3::from(tcp.point().coords),
-            orientation.quaternion * onto_x,
+            orientation.quaternion * self.onto_x(),
         ))
+    }
+
+    /// The turn that brings the tool's axis onto +x.
+    fn onto_x(&self) -> UnitQuaternion<f64> {
+        shortest(&self.tool_axis.vector(), &Vector3::x(), &Vector3::z_axis())
+    }
+
+    /// The flange's pose where the tool's centre point is at the origin of `approach` and its axis along +x of it; both in the
+    /// robot's frame. The turn about the axis is that of `approach`: for a tool axis in the plane of x and z its y stays y.
+    pub fn flange_at(&self, approach: &Isometry3<f64>) -> Isometry3<f64> {
+        approach * self.onto_x() * self.tcp_from_flange.isometry()
     }
 
     /// The flange's pose for the same: what the robot is told.

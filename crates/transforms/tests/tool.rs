@@ -1,7 +1,10 @@
 //! Properties of the tool's orientation over all directions.
 
-use nalgebra::Vector3;
-use pomona_transforms::{Direction, EulerZyx, RobotFrame, ToolOrientation, paper_as_printed_euler};
+use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3};
+use pomona_transforms::{
+    Direction, EulerZyx, Position, RobotFrame, ToolModel, ToolOrientation, Transform,
+    paper_as_printed_euler,
+};
 use proptest::prelude::*;
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -77,5 +80,22 @@ proptest! {
         prop_assume!(!tool.singular);
         let printed = paper_as_printed_euler(&direction);
         prop_assert_eq!(printed, EulerZyx { ry: -tool.euler.ry, ..tool.euler });
+    }
+
+    #[test]
+    fn both_ways_to_the_flange_agree(direction in direction(), axis in direction(), mount in prop::array::uniform3(-1.0..1.0f64)) {
+        let axis = Direction::from_unit(nalgebra::Unit::new_unchecked(axis.vector()));
+        let turned = UnitQuaternion::from_scaled_axis(Vector3::from(mount));
+        let tcp_from_flange = Transform::from_isometry(&Isometry3::from_parts(Vector3::from(mount).into(), turned)).unwrap();
+        let tool = ToolModel::new(tcp_from_flange, axis);
+        let orientation = ToolOrientation::along(&direction);
+        let tcp = Position::new(Point3::from(mount));
+        let approach = Isometry3::from_parts(tcp.point().coords.into(), orientation.quaternion);
+        let one = tool.flange_pose(&tcp, &orientation).unwrap().isometry();
+        let other = tool.flange_at(&approach);
+        prop_assert!((one.to_homogeneous() - other.to_homogeneous()).amax() < 1e-12);
+        // The tool's axis, carried by the flange, points along the direction.
+        let carried = other * tcp_from_flange.isometry().inverse() * axis.vector();
+        prop_assert!((carried - direction.vector()).norm() < 2e-6);
     }
 }

@@ -1,3 +1,5 @@
+mod base;
+
 use crate::terminal::{FAINT, HEADING, Terminal, one_line};
 use pomona_evaluate::{Alignment, CaliperReport, Evaluation, LabRow, Share, SuiteResult, Summary};
 
@@ -80,7 +82,7 @@ pub(super) fn evaluation(evaluation: &Evaluation, terminal: Terminal) -> String 
         let title = format!("Tables 1-3 of the paper and {}, {}", of.suite, of.method);
         text += &("\n".to_owned() + &table(&title, &header, &rows, 1, terminal));
     }
-    text + &pairs(evaluation, terminal)
+    text + &pairs(evaluation, terminal) + &base::tables(evaluation, terminal)
 }
 
 /// The methods in pairs, apple by apple; nothing where there is one method.

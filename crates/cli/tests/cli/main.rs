@@ -15,6 +15,7 @@ mod fuse;
 mod inspect;
 mod pick;
 mod real_frames;
+mod robot;
 mod scene;
 mod scenes;
 mod schema;

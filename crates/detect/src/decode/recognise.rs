@@ -1,0 +1,144 @@
+use super::{USUAL_STRIDES, cells, yolov3, yolov3_nms, yolov5, yolov8};
+use crate::{Family, ModelDescription, Port, fault::Fault};
+
+/// Strides of the grids that these networks come with.
+pub(super) const GRIDS: [&[usize]; 4] =
+    [USUAL_STRIDES, &[8, 16, 32, 64], &[4, 8, 16, 32], &[16, 32]];
+
+/// The output that holds rows of boxes: the first with three axes.
+pub(super) fn flat_output(outputs: &[Port]) -> Option<usize> {
+    outputs.iter().position(|port| port.shape.len() == 3)
+}
+
+/// The family of a network with these inputs and outputs.
+///
+/// `input` is its width and height in pixels, where they are known. Two inputs and three outputs are the zoo's
+/// `YOLOv3`. An output with three axes is told by its number of rows: as many as there are cells on the grids along its
+/// last axis is `YOLOv8`, along its middle axis YOLOX, three times as many `YOLOv5`. Only outputs of four or five axes are
+/// `YOLOv3`'s grids.
+pub(crate) fn recognise(
+    inputs: &[Port],
+    outputs: &[Port],
+    input: Option<[usize; 2]>,
+    description: &ModelDescription,
+) -> Result<Family, Fault> {
+    if let Some(family) = description.family {
+        return Ok(family);
+    }
+    if inputs.len() == 2 && yolov3_nms::roles(outputs).is_some() {
+        return Ok(Family::YoloV3Nms);
+    }
+    if let Some(k) = flat_output(outputs) {
+        return flat_family(&outputs[k], input, description);
+    }
+    let grid = |port: &Port| matches!(port.shape.len(), 4 | 5);
+    if !outputs.is_empty() && outputs.iter().all(grid) {
+        return Ok(Family::YoloV3);
+    }
+    let shown: Vec<String> = outputs.iter().map(show).collect();
+    Err(Fault::new(
+        "outputs",
+        format!("{} are those of no known family", shown.join(", ")),
+        "export the model without suppression inside, or state its `family` in the description beside it",
+    ))
+}
+
+fn flat_family(
+    output: &Port,
+    input: Option<[usize; 2]>,
+    description: &ModelDescription,
+) -> Result<Family, Fault> {
+    let unknown = |problem: &str| {
+        let size = input.map_or_else(String::new, |[w, h]| format!(" of a {w}x{h} input"));
+        let problem = format!("{}{size}: {problem}", show(output));
+        let remedy = "state `family`, and `input_size` or `strides` where they are unusual, in the \
+            description beside the model";
+        Err(Fault::new("outputs", problem, remedy))
+    };
+    let grids = description.strides.as_deref();
+    let on_grid = |rows: usize, times: usize| {
+        let fits = |strides| input.is_some_and(|input| times * cells(input, strides) == rows);
+        grids.map_or_else(|| GRIDS.iter().any(|grid| fits(grid)), fits)
+    };
+    let yolox = |rows: usize| {
+        input.is_some_and(|input| cells(input, grids.unwrap_or(USUAL_STRIDES)) == rows)
+    };
+    let classes = description.classes.as_ref().map(Vec::len);
+    let boxes_only =
+        |columns: usize| classes.is_some_and(|c| columns == yolov8::BEFORE_CLASSES + c);
+    match output.shape[1..] {
+        [Some(columns), Some(rows)] if on_grid(rows, 1) && columns > yolov8::BEFORE_CLASSES => {
+            Ok(Family::YoloV8)
+        }
+        [Some(rows), Some(columns)] if on_grid(rows, 1) && boxes_only(columns) => {
+            Ok(Family::YoloV8)
+        }
+        [Some(rows), Some(columns)] if yolox(rows) && columns > yolov5::BEFORE_CLASSES => {
+            Ok(Family::YoloX)
+        }
+        [Some(rows), Some(columns)] if on_grid(rows, 3) && columns >= yolov5::BEFORE_CLASSES => {
+            Ok(Family::YoloV5)
+        }
+        // YOLOX's own export leaves no axis open but the batch.
+        [None, Some(columns)] if boxes_only(columns) => Ok(Family::YoloV8),
+        [None, Some(columns)] if columns >= yolov5::BEFORE_CLASSES => Ok(Family::YoloV5),
+        [Some(columns), None] if columns > yolov8::BEFORE_CLASSES => Ok(Family::YoloV8),
+        [None, None] => unknown("it leaves open what would tell its family"),
+        [Some(_), Some(_)] if input.is_none() => {
+            unknown("its family cannot be told while the input's size is open")
+        }
+        _ => unknown("it has neither one nor three rows for each cell of the usual grids"),
+    }
+}
+
+/// How many classes the outputs hold, as far as their declared shapes tell.
+pub(crate) fn class_count(
+    family: Family,
+    outputs: &[Port],
+    input: [usize; 2],
+    description: &ModelDescription,
+) -> Option<usize> {
+    match family {
+        Family::YoloV5 | Family::YoloX => {
+            let columns = (*outputs[flat_output(outputs)?].shape.last()?)?;
+            Some(columns.checked_sub(yolov5::BEFORE_CLASSES)?.max(1))
+        }
+        Family::YoloV8 => {
+            let columns = match outputs[flat_output(outputs)?].shape[1..] {
+                [Some(first), Some(second)] => {
+                    let classes = description.classes.as_ref().map(Vec::len);
+                    let first_is = yolov8::columns_first([first, second], Some(input), classes);
+                    if first_is { first } else { second }
+                }
+                [Some(columns), None] | [None, Some(columns)] => columns,
+                _ => return None,
+            };
+            columns.checked_sub(yolov8::BEFORE_CLASSES)
+        }
+        Family::YoloV3Nms => {
+            let [_, scores, _] = yolov3_nms::roles(outputs)?;
+            *outputs[scores].shape.get(1)?
+        }
+        Family::YoloV3 => {
+            let anchors = yolov3::anchors(outputs.len(), description.anchors.as_deref()).ok()?;
+            let mut shape: Vec<usize> = Vec::new();
+            for side in outputs[0].shape.iter().skip(1) {
+                shape.push((*side)?);
+            }
+            shape.insert(0, 1);
+            shape
+                .iter()
+                .try_fold(1_usize, |product, &side| product.checked_mul(side))?;
+            let per_cell = anchors.len() / outputs.len();
+            let strides = description.strides.as_deref();
+            yolov3::Head::new(&shape, per_cell, input, strides).map(|head| head.classes)
+        }
+    }
+}
+
+/// An output's name and shape, open axes as `?`.
+fn show(port: &Port) -> String {
+    let side = |side: &Option<usize>| side.map_or_else(|| "?".to_owned(), |side| side.to_string());
+    let shape: Vec<String> = port.shape.iter().map(side).collect();
+    format!("`{}` [{}]", port.name, shape.join(", "))
+}

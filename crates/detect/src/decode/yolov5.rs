@@ -1,0 +1,72 @@
+use super::table::Table;
+use super::{Decoder, USUAL_STRIDES, cells, found::Found, table};
+use crate::{Detection, Tensor, description::Coordinates, fault::Fault};
+
+/// Columns before the classes: box, and how sure that there is anything.
+pub(super) const BEFORE_CLASSES: usize = 5;
+
+/// Above this, coordinates are pixels. Every cell reports a centre, so that among the rows of a network that counts
+/// in pixels there are always centres far beyond; among shares of the input there are none.
+const LARGEST_SHARE: f32 = 2.0;
+
+pub(super) fn decode(decoder: &Decoder, outputs: &[Tensor]) -> Result<Vec<Detection>, Fault> {
+    let tensor = decoder.flat(outputs)?;
+    let table = Table::new(tensor)?;
+    let place = table::place(tensor);
+    if table.columns < BEFORE_CLASSES {
+        let problem = format!(
+            "{} columns; {} has 5 and the classes",
+            table.columns, decoder.family
+        );
+        return Err(Fault::new(place, problem, "state the model's `family`"));
+    }
+    // Without a column for a class, that anything is there is all that there is to say.
+    let classes = table.columns - BEFORE_CLASSES;
+    decoder.check_classes(&place, classes.max(1))?;
+    if !decoder.stated && table.rows == cells(decoder.input, USUAL_STRIDES) {
+        return Err(Fault::new(
+            place,
+            format!(
+                "its shape {:?} is that of yolox, where it was left open before",
+                tensor.shape
+            ),
+            "state `family = \"yolox\"`, or `\"yolov5\"` if the model decodes its boxes itself",
+        ));
+    }
+    let [width, height] = scale(decoder, &table);
+    let mut found = Found::new(decoder);
+    for row in 0..table.rows {
+        let something = table.get(row, 4);
+        if !found.counts(something) {
+            continue;
+        }
+        let class = if classes == 0 {
+            1.0
+        } else {
+            table.get(row, BEFORE_CLASSES + decoder.class)
+        };
+        let [x, y, w, h] = table.first_four(row);
+        found.add_centred(
+            [x * width, y * height, w * width, h * height],
+            something * class,
+        );
+    }
+    Ok(found.detections)
+}
+
+/// What decoded coordinates are multiplied with.
+pub(super) fn scale(decoder: &Decoder, table: &Table<'_>) -> [f32; 2] {
+    let coordinates = decoder.coordinates.unwrap_or_else(|| {
+        let centre = |row| table.get(row, 0).max(table.get(row, 1));
+        let in_pixels = (0..table.rows).any(|row| centre(row) > LARGEST_SHARE);
+        if in_pixels {
+            Coordinates::Pixels
+        } else {
+            Coordinates::Normalized
+        }
+    });
+    match coordinates {
+        Coordinates::Pixels => [1.0; 2],
+        Coordinates::Normalized => decoder.input.map(|side| side as f32),
+    }
+}

@@ -1,0 +1,58 @@
+use super::table::Table;
+use super::{Decoder, cells, found::Found, recognise::GRIDS, table, yolov5};
+use crate::{Detection, Tensor, fault::Fault};
+
+/// Columns before the classes: the box.
+pub(super) const BEFORE_CLASSES: usize = 4;
+
+pub(super) fn decode(decoder: &Decoder, outputs: &[Tensor]) -> Result<Vec<Detection>, Fault> {
+    let tensor = decoder.flat(outputs)?;
+    let mut table = Table::new(tensor)?;
+    let place = table::place(tensor);
+    if columns_first(
+        [table.rows, table.columns],
+        Some(decoder.input),
+        decoder.classes,
+    ) {
+        table = table.transposed();
+    }
+    if table.columns <= BEFORE_CLASSES {
+        let problem = format!(
+            "{} numbers to a box; yolov8 has 4 and the classes",
+            table.columns
+        );
+        return Err(Fault::new(place, problem, "state the model's `family`"));
+    }
+    decoder.check_classes(&place, table.columns - BEFORE_CLASSES)?;
+    let [width, height] = yolov5::scale(decoder, &table);
+    let mut found = Found::new(decoder);
+    for row in 0..table.rows {
+        let score = table.get(row, BEFORE_CLASSES + decoder.class);
+        if found.counts(score) {
+            let [x, y, w, h] = table.first_four(row);
+            found.add_centred([x * width, y * height, w * width, h * height], score);
+        }
+    }
+    Ok(found.detections)
+}
+
+/// Whether an output of this shape holds the numbers of a box along its first axis: as the family does, unless the
+/// second axis alone agrees with the number of classes, or the first alone with the grids. Where nothing else tells,
+/// there are more boxes than numbers to one.
+pub(super) fn columns_first(
+    [first, second]: [usize; 2],
+    input: Option<[usize; 2]>,
+    classes: Option<usize>,
+) -> bool {
+    let by_classes = |axis: usize| classes.is_some_and(|c| axis == BEFORE_CLASSES + c);
+    if by_classes(first) != by_classes(second) {
+        return by_classes(first);
+    }
+    let by_grid = |axis: usize| {
+        input.is_some_and(|input| GRIDS.iter().any(|grid| axis == cells(input, grid)))
+    };
+    if by_grid(first) != by_grid(second) {
+        return by_grid(second);
+    }
+    first <= second
+}

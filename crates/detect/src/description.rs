@@ -1,0 +1,381 @@
+use crate::{
+    ChannelOrder, ClassChoice, DetectError, Family, Padding, Preparation, fault::Fault,
+    names::nearest,
+};
+use serde::Deserialize;
+use std::{
+    fs, io,
+    path::{Path, PathBuf},
+};
+
+/// What a model's file does not say about it, from a small TOML beside it; everything is optional.
+///
+/// ```
+/// use pomona_detect::{Family, ModelDescription};
+///
+/// let text = "family = 'yolov8'\nclasses = ['leaf', 'apple']\ninput_size = [640, 480]\n";
+/// let description = ModelDescription::parse(text, "orchard.toml")?;
+/// assert_eq!(description.family, Some(Family::YoloV8));
+///
+/// let error = ModelDescription::parse("famly = 'yolov8'", "orchard.toml").unwrap_err();
+/// assert!(error.to_string().contains("orchard.toml: line 1, `famly`"));
+/// assert!(error.to_string().contains("`family`"));
+/// # Ok::<(), pomona_detect::DetectError>(())
+/// ```
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ModelDescription {
+    /// The model's name, for the record.
+    pub name: Option<String>,
+    /// The model's licence, for the reader.
+    #[serde(alias = "license")]
+    pub licence: Option<String>,
+    /// Where the model comes from, for the reader.
+    pub source: Option<String>,
+    /// Anything else, for the reader.
+    pub notes: Option<String>,
+    /// How its outputs are read; recognised where absent.
+    pub family: Option<Family>,
+    /// Names of all its classes, in its order.
+    pub classes: Option<Vec<String>>,
+    /// The class that counts.
+    pub class: Option<ClassChoice>,
+    /// Width and height in pixels of its input, where the model leaves them open.
+    pub input_size: Option<[usize; 2]>,
+    /// Pixels of the input for each cell, from the finest grid to the coarsest.
+    pub strides: Option<Vec<usize>>,
+    /// Width and height in pixels of the input of the anchors, those of the finest grid first.
+    pub anchors: Option<Vec<[f32; 2]>>,
+    /// Order of the colour channels.
+    pub channels: Option<ChannelOrder>,
+    /// What a white pixel becomes, before mean and deviation: 1 or 255.
+    pub white: Option<f32>,
+    /// Subtracted from each channel, in the network's order.
+    pub mean: Option<[f32; 3]>,
+    /// Divides each channel, in the network's order.
+    #[serde(alias = "std")]
+    pub deviation: Option<[f32; 3]>,
+    /// Where the image lies in the input.
+    pub padding: Option<Padding>,
+    /// Grey value, 0 to 255, of what the image does not cover.
+    pub fill: Option<u8>,
+    /// What decoded boxes are measured in; told from their size where absent.
+    pub coordinates: Option<Coordinates>,
+    /// Lowest score that counts, 0 to 1.
+    pub threshold: Option<f64>,
+    /// `IoU` above which two boxes are one thing, 0 to 1.
+    #[serde(alias = "nms_iou")]
+    pub overlap: Option<f64>,
+    /// Longest side in pixels of the image of a tile.
+    pub tile: Option<usize>,
+    /// Pixels of the image that neighbouring tiles share.
+    pub tile_overlap: Option<usize>,
+    /// Whether a tiled image is also looked at as a whole.
+    pub whole_pass: Option<bool>,
+}
+
+/// What decoded boxes are measured in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Coordinates {
+    /// Pixels of the input.
+    Pixels,
+    /// Shares of the input's width and height.
+    Normalized,
+}
+
+/// The keys, to name the nearest where one is unknown.
+const KEYS: [&str; 22] = [
+    "name",
+    "licence",
+    "source",
+    "notes",
+    "family",
+    "classes",
+    "class",
+    "input_size",
+    "strides",
+    "anchors",
+    "channels",
+    "white",
+    "mean",
+    "deviation",
+    "padding",
+    "fill",
+    "coordinates",
+    "threshold",
+    "overlap",
+    "tile",
+    "tile_overlap",
+    "whole_pass",
+];
+
+/// Largest side of an input: beyond it, a slip of the pen would ask for gigabytes.
+pub(crate) const LARGEST_INPUT_SIDE: usize = 8192;
+
+impl ModelDescription {
+    /// Where a model's description lies: `DIR/MODEL.toml` for `DIR/MODEL.onnx`.
+    pub fn path_beside(model: &Path) -> PathBuf {
+        model.with_extension("toml")
+    }
+
+    /// Reads the description beside a model; one that says nothing where there is no such file.
+    ///
+    /// # Errors
+    ///
+    /// [`DetectError::Read`], [`DetectError::Model`].
+    pub fn beside(model: &Path) -> Result<Self, DetectError> {
+        let path = Self::path_beside(model);
+        match fs::read_to_string(&path) {
+            Ok(text) => Self::parse(&text, &path.display().to_string()),
+            Err(source) if source.kind() == io::ErrorKind::NotFound => Ok(Self::default()),
+            Err(source) => Err(DetectError::Read { path, source }),
+        }
+    }
+
+    /// Reads a description's text; `origin` names it in messages.
+    ///
+    /// # Errors
+    ///
+    /// [`DetectError::Model`] for what is no TOML, for a key that does not exist, and for a value that is
+    /// none of those the key can have.
+    pub fn parse(text: &str, origin: &str) -> Result<Self, DetectError> {
+        let description: Self = toml::from_str(text).map_err(|error| {
+            let (line, key) = line_and_key(text, error.span().map_or(0, |span| span.start));
+            let remedy = match key {
+                Some(key) if error.message().starts_with("unknown field") => {
+                    format!("the nearest keys are {}", nearest(key, &KEYS))
+                }
+                _ => "docs/detection.md lists the keys and their values".to_owned(),
+            };
+            let key = key.map_or_else(String::new, |key| format!(", `{key}`"));
+            let problem = error.message().trim().replace('\n', " ");
+            Fault::new(format!("line {line}{key}"), problem, remedy).at(origin)
+        })?;
+        description.check().map_err(|fault| fault.at(origin))?;
+        Ok(description)
+    }
+
+    /// How images are prepared for a model of this family.
+    pub fn preparation(&self, family: Family) -> Preparation {
+        let usual = family.preparation();
+        Preparation {
+            channels: self.channels.unwrap_or(usual.channels),
+            white: self.white.unwrap_or(usual.white),
+            mean: self.mean.unwrap_or(usual.mean),
+            deviation: self.deviation.unwrap_or(usual.deviation),
+            padding: self.padding.unwrap_or(usual.padding),
+            fill: self.fill.unwrap_or(usual.fill),
+        }
+    }
+
+    pub(crate) fn check(&self) -> Result<(), Fault> {
+        let refuse = |bad: bool, key: &str, problem: &str, remedy: &str| {
+            let fault = || Fault::new(format!("`{key}`"), problem, remedy);
+            if bad { Err(fault()) } else { Ok(()) }
+        };
+        let positive = |x: f32| x.is_finite() && x > 0.0;
+        let share = |x: f64| (0.0..=1.0).contains(&x);
+        let sides = 1..=LARGEST_INPUT_SIDE;
+        if let Some(names) = &self.classes {
+            refuse(
+                names.is_empty(),
+                "classes",
+                "the list is empty",
+                "name each class",
+            )?;
+            let twice = (1..names.len()).find(|&k| names[..k].contains(&names[k]));
+            let problem =
+                twice.map_or_else(String::new, |k| format!("`{}` stands twice", names[k]));
+            refuse(
+                twice.is_some(),
+                "classes",
+                &problem,
+                "give each class its own name",
+            )?;
+        }
+        if let Some(size) = self.input_size {
+            let bad = !size.iter().all(|side| sides.contains(side));
+            let remedy = "give width and height from 1 to 8192 pixels";
+            refuse(bad, "input_size", "not a size of an image", remedy)?;
+        }
+        if let Some(strides) = &self.strides {
+            let rising = strides.windows(2).all(|pair| pair[0] < pair[1]);
+            let inside = strides.iter().all(|stride| sides.contains(stride));
+            let remedy = "give pixels per cell, from the finest grid, such as [8, 16, 32]";
+            refuse(
+                strides.is_empty() || !rising || !inside,
+                "strides",
+                "not rising",
+                remedy,
+            )?;
+        }
+        if let Some(anchors) = &self.anchors {
+            let bad = anchors.is_empty() || !anchors.iter().flatten().all(|&side| positive(side));
+            let remedy = "give [width, height] in pixels of each anchor";
+            refuse(bad, "anchors", "none, or one without area", remedy)?;
+        }
+        let white = self.white.is_none_or(positive);
+        refuse(!white, "white", "not above 0", "give 1 or 255")?;
+        let mean = self
+            .mean
+            .is_none_or(|mean| mean.iter().all(|x| x.is_finite()));
+        refuse(!mean, "mean", "not finite", "give three numbers")?;
+        let deviation = self.deviation.is_none_or(|d| d.into_iter().all(positive));
+        refuse(
+            !deviation,
+            "deviation",
+            "not above 0",
+            "give three numbers above 0",
+        )?;
+        let threshold = self.threshold.is_none_or(share);
+        refuse(
+            !threshold,
+            "threshold",
+            "outside 0 to 1",
+            "give a score from 0 to 1",
+        )?;
+        let overlap = self.overlap.is_none_or(share);
+        refuse(
+            !overlap,
+            "overlap",
+            "outside 0 to 1",
+            "give an IoU from 0 to 1",
+        )?;
+        let tile = self.tile.is_none_or(|tile| tile >= 32);
+        refuse(
+            !tile,
+            "tile",
+            "below 32 pixels",
+            "give the longest side of a tile in pixels",
+        )?;
+        let fits = match (self.tile, self.tile_overlap) {
+            (Some(tile), Some(overlap)) => overlap <= tile / 2,
+            _ => true,
+        };
+        refuse(
+            !fits,
+            "tile_overlap",
+            "more than half a tile",
+            "give at most half of `tile`",
+        )
+    }
+}
+
+/// Number of the line that holds this byte, from 1, and the key that stands before its equals sign.
+fn line_and_key(text: &str, byte: usize) -> (usize, Option<&str>) {
+    let before = text.get(..byte).unwrap_or_default();
+    let line = before.matches('\n').count();
+    let key = text.lines().nth(line).and_then(|line| line.split_once('='));
+    (line + 1, key.map(|(key, _)| key.trim()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn message(text: &str) -> String {
+        ModelDescription::parse(text, "m.toml")
+            .unwrap_err()
+            .to_string()
+    }
+
+    #[test]
+    fn every_key_is_read() {
+        let text = "
+            name = 'apples'\nlicence = 'MIT'\nsource = 'here'\nnotes = 'small'\nfamily = 'yolov7'
+            classes = ['apple', 'leaf']\nclass = 'apple'\ninput_size = [416, 320]\nstrides = [16, 32]
+            anchors = [[10, 14], [23.5, 27]]\nchannels = 'bgr'\nwhite = 255\nmean = [1, 2, 3.5]
+            deviation = [1, 1, 2]\npadding = 'top-left'\nfill = 0\ncoordinates = 'normalized'
+            threshold = 0.3\noverlap = 0.5\ntile = 400\ntile_overlap = 90\nwhole_pass = false";
+        let description = ModelDescription::parse(text, "m.toml").unwrap();
+        assert_eq!(description.family, Some(Family::YoloV5));
+        assert_eq!(
+            description.class,
+            Some(ClassChoice::Name("apple".to_owned()))
+        );
+        assert_eq!(description.anchors, Some(vec![[10.0, 14.0], [23.5, 27.0]]));
+        let preparation = description.preparation(Family::YoloV5);
+        assert_eq!(preparation.channels, ChannelOrder::Bgr);
+        assert_eq!(preparation.padding, Padding::TopLeft);
+        assert_eq!((preparation.white, preparation.fill), (255.0, 0));
+        assert_eq!(description.whole_pass, Some(false));
+        // The list of keys is that of the fields.
+        for key in KEYS {
+            assert!(text.contains(&format!("{key} =")), "{key}");
+        }
+        let unknown = message("zzz = 1");
+        for key in KEYS {
+            assert!(unknown.contains(&format!("`{key}`")), "{key}: {unknown}");
+        }
+        let number =
+            ModelDescription::parse("class = 47\nlicense = 'x'\nstd = [1, 1, 1]", "m.toml");
+        assert_eq!(number.unwrap().class, Some(ClassChoice::Number(47)));
+    }
+
+    #[test]
+    fn messages_name_file_line_and_key() {
+        let unknown = message("name = 'x'\nanchor = [[1, 2]]");
+        assert!(
+            unknown.starts_with("m.toml: line 2, `anchor`: unknown field"),
+            "{unknown}"
+        );
+        assert!(unknown.contains("nearest keys are `anchors`"), "{unknown}");
+        let family = message("family = 'yolo99'");
+        assert!(
+            family.contains("line 1, `family`") && family.contains("`yolox`"),
+            "{family}"
+        );
+        let class = message("class = [1]");
+        assert!(class.contains("a class's name or number"), "{class}");
+        assert!(message("fill = 300").contains("`fill`"));
+        assert!(message("threshold = \"high\"").contains("`threshold`"));
+        assert!(message("= =").contains("line 1"));
+    }
+
+    #[test]
+    fn values_that_make_no_sense_are_refused() {
+        for (text, key) in [
+            ("classes = []", "classes"),
+            ("classes = ['a', 'a']", "classes"),
+            ("input_size = [0, 416]", "input_size"),
+            ("input_size = [416, 1000000]", "input_size"),
+            ("strides = []", "strides"),
+            ("strides = [16, 8]", "strides"),
+            ("strides = [0, 8]", "strides"),
+            ("anchors = []", "anchors"),
+            ("anchors = [[1, 0]]", "anchors"),
+            ("anchors = [[nan, 1]]", "anchors"),
+            ("white = 0", "white"),
+            ("white = inf", "white"),
+            ("mean = [0, nan, 0]", "mean"),
+            ("deviation = [1, 1, 0]", "deviation"),
+            ("threshold = 1.5", "threshold"),
+            ("threshold = nan", "threshold"),
+            ("overlap = -0.1", "overlap"),
+            ("tile = 0", "tile"),
+            ("tile = 100\ntile_overlap = 60", "tile_overlap"),
+        ] {
+            let message = message(text);
+            assert!(
+                message.starts_with(&format!("m.toml: `{key}`: ")),
+                "{text}: {message}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_model_without_a_description_says_nothing() {
+        let folder = tempfile::tempdir().unwrap();
+        let model = folder.path().join("apples.onnx");
+        assert_eq!(
+            ModelDescription::beside(&model).unwrap(),
+            ModelDescription::default()
+        );
+        fs::write(folder.path().join("apples.toml"), "fill = 3").unwrap();
+        assert_eq!(ModelDescription::beside(&model).unwrap().fill, Some(3));
+        fs::write(folder.path().join("apples.toml"), "fil = 3").unwrap();
+        let message = ModelDescription::beside(&model).unwrap_err().to_string();
+        assert!(message.contains("apples.toml: line 1"), "{message}");
+    }
+}

@@ -1,0 +1,88 @@
+use crate::{ChannelOrder, Padding, Preparation};
+use serde::Deserialize;
+use std::fmt;
+
+/// How a network's outputs are to be read.
+///
+/// `N` is the number of rows, `C` that of the classes, `A` that of the anchors of each cell. Boxes are centre, width
+/// and height; 'decoded' ones in pixels of the input, or in shares of it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize)]
+#[non_exhaustive]
+pub enum Family {
+    /// `YOLOv3` and `YOLOv3-tiny` as they leave the last convolutions: for each stride an output
+    /// `[1, A·(5+C), h, w]`, its axes also in the order of Keras or with the anchors on an axis of their own; logits
+    /// throughout.
+    ///
+    /// Redmon and Farhadi, `YOLOv3`: An Incremental Improvement, arXiv 1804.02767, section 2.1.
+    #[serde(rename = "yolov3")]
+    YoloV3,
+    /// The ONNX model zoo's `YOLOv3` and `YOLOv3-tiny`, with their own suppression inside: boxes `[1, N, 4]` as y
+    /// and x of two corners, scores `[1, C, N]`, chosen ones `[M, 3]` or `[1, M, 3]` as batch, class and row.
+    #[serde(rename = "yolov3-nms")]
+    YoloV3Nms,
+    /// `YOLOv4`, v5 and v7: `[1, N, 5+C]`, decoded: box, how sure that there is anything, and each class.
+    #[serde(rename = "yolov5", alias = "yolov4", alias = "yolov7")]
+    YoloV5,
+    /// `YOLOv8`, v9 and v11: `[1, 4+C, N]`, decoded: box and each class; `[1, N, 4+C]` too.
+    #[serde(
+        rename = "yolov8",
+        alias = "yolov9",
+        alias = "yolov11",
+        alias = "yolo11"
+    )]
+    YoloV8,
+    /// YOLOX: `[1, N, 5+C]`, one row for each cell, its box relative to the cell and in units of the stride.
+    ///
+    /// Ge et al., YOLOX: Exceeding YOLO Series in 2021, arXiv 2107.08430, section 2.1.
+    #[serde(rename = "yolox")]
+    YoloX,
+}
+
+impl Family {
+    /// Its name in descriptions and reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::YoloV3 => "yolov3",
+            Self::YoloV3Nms => "yolov3-nms",
+            Self::YoloV5 => "yolov5",
+            Self::YoloV8 => "yolov8",
+            Self::YoloX => "yolox",
+        }
+    }
+
+    /// How images are prepared for it where its description does not say.
+    pub fn preparation(self) -> Preparation {
+        let usual = Preparation {
+            channels: ChannelOrder::Rgb,
+            white: 1.0,
+            mean: [0.0; 3],
+            deviation: [1.0; 3],
+            padding: Padding::Center,
+            fill: 114,
+        };
+        match self {
+            Self::YoloV3 | Self::YoloV3Nms => Preparation { fill: 128, ..usual },
+            Self::YoloV5 | Self::YoloV8 => usual,
+            Self::YoloX => Preparation {
+                channels: ChannelOrder::Bgr,
+                white: 255.0,
+                padding: Padding::TopLeft,
+                ..usual
+            },
+        }
+    }
+
+    /// Side in pixels of its square input where neither model nor description says.
+    pub fn input_side(self) -> usize {
+        match self {
+            Self::YoloV3 | Self::YoloV3Nms => 416,
+            Self::YoloV5 | Self::YoloV8 | Self::YoloX => 640,
+        }
+    }
+}
+
+impl fmt::Display for Family {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}

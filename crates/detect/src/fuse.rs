@@ -1,0 +1,247 @@
+use crate::{
+    Detection, Scope, suppress,
+    suppress::{best_first, is_box, widest},
+};
+use pomona_cloud::PixelWindow;
+use std::collections::HashMap;
+
+/// How near a tile's inner border, in pixels of the network's input, a box ends that counts as cut by it: what a
+/// network errs by where it sees half an apple.
+const CUT_MARGIN: f64 = 4.0;
+
+/// Share of a cut box that lies in a whole one from which on it is part of it.
+const PART_OF_WHOLE: f64 = 0.5;
+
+/// What was seen in one window of an image.
+#[derive(Clone, Debug, PartialEq)]
+pub struct View {
+    /// The window.
+    pub window: PixelWindow,
+    /// Pixels of the network's input for each pixel of the image.
+    pub scale: f64,
+    /// The boxes, in pixels of the image.
+    pub detections: Vec<Detection>,
+}
+
+/// One set of boxes from the views of an image of `[width, height]` pixels, best first: no two of a class have an `IoU`
+/// above `overlap`.
+///
+/// Boxes of one class that lie on each other become their weighted mean (Solovyev, Wang and Gabruseva, Weighted boxes
+/// fusion, Image and Vision Computing 107, 2021, section 3, doi 10.1016/j.imavis.2021.104117): the best box first,
+/// each joins the mean that it overlaps most, or begins one of its own. It differs in three things, since here not
+/// several networks see one image, but one network sees parts of it:
+///
+/// - a box weighs its score times the square of the view's scale, for the errors of a network are of a size in
+///   pixels of its input;
+/// - the mean has the score of its best box, for a tile that does not reach there has no say;
+/// - a box that ends at an inner border of its view is *cut*, and never changes a whole one. It goes where most of it
+///   lies in a whole box, to which it leaves its score if it shows what can be seen of that one there. Cut boxes for
+///   which there is no whole one, those of apples larger than the tiles' overlap, are compared by what both views show,
+///   and joined to the box around all their parts.
+///
+/// The order of the views, and of the boxes in them, changes nothing.
+pub fn fuse(views: &[View], [width, height]: [usize; 2], overlap: f64) -> Vec<Detection> {
+    let mut sightings: Vec<Sighting> = Vec::new();
+    for view in views {
+        let boxes = view.detections.iter().filter(|d| is_box(d));
+        sightings.extend(boxes.map(|d| Sighting::new(*d, view, [width, height])));
+    }
+    sightings.sort_by(|a, b| {
+        best_first(&a.detection, &b.detection).then_with(|| b.weight.total_cmp(&a.weight))
+    });
+    let all: Vec<Detection> = sightings.iter().map(|s| s.detection).collect();
+    let cell = widest(&all);
+    let (cut, whole): (Vec<Sighting>, Vec<Sighting>) = sightings.into_iter().partition(|s| s.cut);
+    let (mut fused, near) = fuse_whole(&whole, cell, overlap);
+    let left = absorb(&cut, &mut fused, &near, overlap);
+    fused.extend(join(&left, cell, overlap));
+    suppress(&mut fused, overlap, Scope::PerClass);
+    fused
+}
+
+/// A box and how it was seen.
+#[derive(Clone, Copy)]
+struct Sighting {
+    detection: Detection,
+    /// The view's window as a box.
+    seen: Detection,
+    cut: bool,
+    weight: f64,
+}
+
+impl Sighting {
+    fn new(detection: Detection, view: &View, [width, height]: [usize; 2]) -> Self {
+        let window = view.window;
+        let seen = Detection {
+            x_min: window.x0 as f64,
+            y_min: window.y0 as f64,
+            x_max: window.x1 as f64,
+            y_max: window.y1 as f64,
+            ..detection
+        };
+        let margin = CUT_MARGIN / view.scale;
+        let cut = (window.x0 > 0 && detection.x_min < seen.x_min + margin)
+            || (window.y0 > 0 && detection.y_min < seen.y_min + margin)
+            || (window.x1 < width && detection.x_max > seen.x_max - margin)
+            || (window.y1 < height && detection.y_max > seen.y_max - margin);
+        // A score of zero must still leave a mean.
+        let weight = detection.score.max(1e-6) * view.scale * view.scale;
+        Self {
+            detection,
+            seen,
+            cut,
+            weight,
+        }
+    }
+}
+
+/// The weighted means of whole boxes, and where they are.
+fn fuse_whole(whole: &[Sighting], cell: f64, overlap: f64) -> (Vec<Detection>, Near) {
+    let mut near = Near::new(cell);
+    let mut fused: Vec<Detection> = Vec::new();
+    let mut weights: Vec<f64> = Vec::new();
+    for Sighting {
+        detection, weight, ..
+    } in whole
+    {
+        let mut best: Option<(f64, usize)> = None;
+        for k in near.of(detection) {
+            let iou = fused[k].iou(detection);
+            let better = best.is_none_or(|(most, at)| iou > most || (iou == most && k < at));
+            if iou > overlap && better {
+                best = Some((iou, k));
+            }
+        }
+        let Some((_, k)) = best else {
+            near.insert(fused.len(), detection);
+            fused.push(*detection);
+            weights.push(*weight);
+            continue;
+        };
+        let before = fused[k];
+        weights[k] += weight;
+        let share = weight / weights[k];
+        let mean = |old: f64, new: f64| old + (new - old) * share;
+        fused[k] = Detection {
+            x_min: mean(before.x_min, detection.x_min),
+            y_min: mean(before.y_min, detection.y_min),
+            x_max: mean(before.x_max, detection.x_max),
+            y_max: mean(before.y_max, detection.y_max),
+            ..before
+        };
+        near.move_to(k, &before, &fused[k]);
+    }
+    (fused, near)
+}
+
+/// The cut boxes that are part of no whole one.
+fn absorb(cut: &[Sighting], whole: &mut [Detection], near: &Near, overlap: f64) -> Vec<Sighting> {
+    let mut left = Vec::new();
+    for sighting in cut {
+        let part = common(&sighting.detection, &sighting.seen);
+        let mut absorbed = false;
+        for k in near.of(&sighting.detection) {
+            if common(&part, &whole[k]).area() > PART_OF_WHOLE * part.area() {
+                absorbed = true;
+                if part.iou(&common(&whole[k], &sighting.seen)) > overlap {
+                    whole[k].score = whole[k].score.max(sighting.detection.score);
+                }
+            }
+        }
+        if !absorbed {
+            left.push(*sighting);
+        }
+    }
+    left
+}
+
+/// Boxes around the parts of what no view shows whole.
+fn join(cut: &[Sighting], cell: f64, overlap: f64) -> Vec<Detection> {
+    let mut near = Near::new(cell);
+    let mut groups: Vec<Detection> = Vec::new();
+    let mut group_of: Vec<usize> = Vec::new();
+    for (number, sighting) in cut.iter().enumerate() {
+        let Sighting {
+            detection, seen, ..
+        } = sighting;
+        let same = |k: &usize| {
+            let other = &cut[*k];
+            let in_both = common(&common(detection, &other.seen), seen)
+                .iou(&common(&common(&other.detection, seen), &other.seen));
+            in_both.max(detection.iou(&other.detection)) > overlap
+        };
+        let group = near.of(detection).filter(same).map(|k| group_of[k]).min();
+        let group = group.unwrap_or_else(|| {
+            groups.push(*detection);
+            groups.len() - 1
+        });
+        let around = &mut groups[group];
+        around.x_min = around.x_min.min(detection.x_min);
+        around.y_min = around.y_min.min(detection.y_min);
+        around.x_max = around.x_max.max(detection.x_max);
+        around.y_max = around.y_max.max(detection.y_max);
+        group_of.push(group);
+        near.insert(number, detection);
+    }
+    groups
+}
+
+/// What two boxes have in common; inverted, so of no area, where that is nothing.
+fn common(a: &Detection, b: &Detection) -> Detection {
+    Detection {
+        x_min: a.x_min.max(b.x_min),
+        y_min: a.y_min.max(b.y_min),
+        x_max: a.x_max.min(b.x_max),
+        y_max: a.y_max.min(b.y_max),
+        ..*a
+    }
+}
+
+/// Finds the boxes of a class that may touch one: they are in columns as wide as the widest box, by their centres.
+struct Near {
+    cell: f64,
+    columns: HashMap<(usize, i64), Vec<usize>>,
+}
+
+impl Near {
+    fn new(cell: f64) -> Self {
+        Self {
+            cell,
+            columns: HashMap::new(),
+        }
+    }
+
+    fn column(&self, detection: &Detection) -> (usize, i64) {
+        let centre = f64::midpoint(detection.x_min, detection.x_max);
+        (detection.class, (centre / self.cell).floor() as i64)
+    }
+
+    fn insert(&mut self, number: usize, detection: &Detection) {
+        let column = self.column(detection);
+        self.columns.entry(column).or_default().push(number);
+    }
+
+    fn move_to(&mut self, number: usize, from: &Detection, to: &Detection) {
+        let (from, new) = (self.column(from), self.column(to));
+        if from != new {
+            self.columns
+                .entry(from)
+                .or_default()
+                .retain(|&k| k != number);
+            self.columns.entry(new).or_default().push(number);
+        }
+    }
+
+    /// Numbers of all that may touch this box.
+    fn of(&self, detection: &Detection) -> impl Iterator<Item = usize> {
+        let (class, column) = self.column(detection);
+        let columns = [column.saturating_sub(1), column, column.saturating_add(1)];
+        let distinct = columns.into_iter().enumerate();
+        let distinct = distinct.filter(move |(k, column)| !columns[..*k].contains(column));
+        let lists = distinct.filter_map(move |(_, column)| self.columns.get(&(class, column)));
+        lists.flatten().copied()
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -38,9 +38,16 @@ impl Draw {
         [x, y, x + w + 4.0, y + h + 4.0]
     }
 
-    fn shifted(&mut self, edges: [f64; 4], by: f64) -> [f64; 4] {
-        let side = edges[2] - edges[0];
-        edges.map(|edge| edge + by * side * (self.unit() - 0.5))
+    /// Each edge moved by up to half of `by` of the box's width or height, so that it stays a box.
+    fn shifted(&mut self, [x_min, y_min, x_max, y_max]: [f64; 4], by: f64) -> [f64; 4] {
+        let mut moved = |edge: f64, side: f64| edge + by * side * (self.unit() - 0.5);
+        let (w, h) = (x_max - x_min, y_max - y_min);
+        [
+            moved(x_min, w),
+            moved(y_min, h),
+            moved(x_max, w),
+            moved(y_max, h),
+        ]
     }
 }
 

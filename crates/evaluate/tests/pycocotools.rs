@@ -2,12 +2,17 @@
 //!
 //! The Python is that of the variable `PYTHON`, else `python3`.
 
+#![allow(
+    clippy::unwrap_used,
+    reason = "the functions that tests share are tests too"
+)]
+
 use pomona_cloud::{LabelKind, LabelledBox, PixelBox};
 use pomona_detect::Detection;
 use pomona_evaluate::{Curve, ImageOutcome};
 use rand_chacha::ChaCha8Rng;
 use rand_core::{Rng, SeedableRng};
-use serde_json::json;
+use serde_json::{Value, json};
 use std::path::Path;
 use std::process::Command;
 
@@ -49,6 +54,29 @@ impl Draw {
             moved(y_max, h),
         ]
     }
+}
+
+/// AP50 and AP50-95 of the reference program.
+fn reference(python: &str, labels: &Value, results: &Value) -> [f64; 2] {
+    let dir = tempfile::tempdir().unwrap();
+    let write = |name: &str, value: &Value| {
+        let path = dir.path().join(name);
+        std::fs::write(&path, value.to_string()).unwrap();
+        path
+    };
+    let program =
+        Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/pycocotools/average_precision.py");
+    let output = Command::new(python)
+        .arg(program)
+        .arg(write("labels.json", labels))
+        .arg(write("results.json", results))
+        .output()
+        .unwrap();
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{said}");
+    let text = String::from_utf8(output.stdout).unwrap();
+    let mut numbers = text.split_whitespace().map(|word| word.parse().unwrap());
+    [numbers.next().unwrap(), numbers.next().unwrap()]
 }
 
 #[test]
@@ -112,48 +140,22 @@ fn average_precision_is_that_of_the_reference_program() {
             }
             outcomes.push(ImageOutcome::new(&labels, detections));
         }
-        let dir = tempfile::tempdir().unwrap();
-        let write = |name: &str, value: serde_json::Value| {
-            let path = dir.path().join(name);
-            std::fs::write(&path, value.to_string()).unwrap();
-            path
-        };
-        let labels = write(
-            "labels.json",
-            json!({ "info": {}, "images": images, "annotations": annotations, "categories": [{ "id": 1, "name": "apple" }] }),
-        );
-        let results = write("results.json", json!(results));
-        let program =
-            Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/pycocotools/average_precision.py");
-        let output = Command::new(&python)
-            .arg(program)
-            .arg(labels)
-            .arg(results)
-            .output()
-            .unwrap();
-        assert!(
-            output.status.success(),
-            "{}",
-            String::from_utf8_lossy(&output.stderr)
-        );
-        let text = String::from_utf8(output.stdout).unwrap();
-        let theirs: Vec<f64> = text
-            .split_whitespace()
-            .map(|word| word.parse().unwrap())
-            .collect();
+        let labels = json!({ "info": {}, "images": images, "annotations": annotations,
+            "categories": [{ "id": 1, "name": "apple" }] });
+        let theirs = reference(&python, &labels, &json!(results));
         let ours = Curve::of(&outcomes).unwrap();
         println!(
-            "seed {seed}: ours {} {}, pycocotools {text}",
+            "seed {seed}: ours {} {}, pycocotools {theirs:?}",
             ours.ap50_101, ours.ap50_95_101
         );
         assert!(
             (ours.ap50_101 - theirs[0]).abs() < 1e-9,
-            "{} {text}",
+            "{} {theirs:?}",
             ours.ap50_101
         );
         assert!(
             (ours.ap50_95_101 - theirs[1]).abs() < 1e-9,
-            "{} {text}",
+            "{} {theirs:?}",
             ours.ap50_95_101
         );
     }

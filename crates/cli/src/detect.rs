@@ -15,10 +15,10 @@ use clap::{Args, ValueEnum};
 use pomona_cloud::{
     BoxFormat, CocoCategory, CocoDataset, CocoImage, ColorImage, LabelledBox, PixelBox, write_boxes,
 };
-use pomona_detect::{Detection, Detector};
+use pomona_detect::{Detection, Detector, DetectorReport};
 use pomona_view::{BoxKind, BoxMark, draw_boxes};
 use record::{DetectionRecord, DetectionsRecord, ImageRecord, TimingRecord};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Instant;
 
 const EXAMPLES: &str = "\
@@ -92,6 +92,17 @@ pub(crate) fn run(arguments: &DetectArguments, terminal: Terminal) -> anyhow::Re
     job.run(terminal)
 }
 
+/// Says what was assumed about the model, and with -v why a runtime did not serve.
+pub(crate) fn say(report: &DetectorReport, terminal: Terminal) {
+    for note in &report.notes {
+        terminal.note(&format!("{}: {note}", report.name));
+    }
+    let runtime = report.runtime.as_ref();
+    if let Some(reason) = runtime.and_then(|r| r.fallback_reason.as_ref()) {
+        log::info!("{reason}");
+    }
+}
+
 /// What is to be done, and with what.
 struct Job<'a> {
     arguments: &'a DetectArguments,
@@ -106,13 +117,7 @@ impl Job<'_> {
     fn run(&self, terminal: Terminal) -> anyhow::Result<()> {
         let arguments = self.arguments;
         let report = self.detector.report();
-        if let Some(reason) = report
-            .runtime
-            .as_ref()
-            .and_then(|r| r.fallback_reason.as_ref())
-        {
-            log::info!("{reason}");
-        }
+        say(&report, terminal);
         let output = OutputFolder::new(&arguments.out)?;
         let bar = progress::bar(self.images.len());
         let mut records = Vec::new();
@@ -123,7 +128,7 @@ impl Job<'_> {
         }
         bar.finish_and_clear();
         if arguments.format == Format::Coco {
-            coco(&records).write(output.file(COCO))?;
+            coco(&records, self.images).write(output.file(COCO))?;
         }
         let record = DetectionsRecord::new(report, self.open_ms, records);
         let json = serde_json::to_string_pretty(&record)? + "\n";
@@ -202,19 +207,18 @@ fn picture_name(name: &str) -> String {
     format!("{name}-boxes.png")
 }
 
-/// The boxes of all images in one data set; each image by its file's name.
-fn coco(records: &[ImageRecord]) -> CocoDataset {
-    let images = records.iter().zip(1..).map(|(record, id)| {
+/// The boxes of all images in one data set.
+fn coco(records: &[ImageRecord], images: &[NamedImage]) -> CocoDataset {
+    let pairs = records.iter().zip(images).zip(1..);
+    let images = pairs.map(|((record, image), id)| {
         let boxes = record.detections.iter().map(|d| LabelledBox {
             class_number: Some(1),
             class_name: Some(CLASS.to_owned()),
             ..LabelledBox::new(d.to_pixel_box(CLASS))
         });
-        let file = Path::new(&record.file).file_name();
         CocoImage {
             id,
-            file_name: file
-                .map_or_else(|| record.file.clone(), |f| f.to_string_lossy().into_owned()),
+            file_name: image.file_name.clone(),
             width: record.width,
             height: record.height,
             boxes: boxes.collect(),

@@ -12,6 +12,8 @@ pub(crate) struct NamedImage {
     pub(crate) name: String,
     /// The file.
     pub(crate) path: PathBuf,
+    /// What a data set calls it: the file's name, for a frame's image with that of the frame's folder before it.
+    pub(crate) file_name: String,
 }
 
 /// The colour images that arguments stand for: files, frames, folders of images or of frames.
@@ -88,21 +90,26 @@ fn frame(folder: &Path) -> Option<NamedImage> {
             .file_name()
             .map(ToOwned::to_owned)
     })?;
+    let name = name.to_string_lossy().into_owned();
     Some(NamedImage {
-        name: name.to_string_lossy().into_owned(),
+        file_name: format!("{name}/{}", file_name(&path)),
+        name,
         path,
     })
 }
 
 fn named(path: &Path) -> NamedImage {
+    let stem = path.file_stem().unwrap_or_default();
     NamedImage {
-        name: path
-            .file_stem()
-            .unwrap_or_default()
-            .to_string_lossy()
-            .into_owned(),
+        name: stem.to_string_lossy().into_owned(),
         path: path.to_owned(),
+        file_name: file_name(path),
     }
+}
+
+fn file_name(path: &Path) -> String {
+    let name = path.file_name().unwrap_or_default();
+    name.to_string_lossy().into_owned()
 }
 
 #[cfg(test)]

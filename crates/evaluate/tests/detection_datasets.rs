@@ -151,6 +151,14 @@ fn frames_alone_and_together() {
     );
     let names: Vec<&str> = dataset.images.iter().map(|i| i.name.as_str()).collect();
     assert_eq!(names, ["one", "two"]);
+    let file = dir.path().join("found.json");
+    let found = COCO
+        .replace("b.png", "two/color.png")
+        .replace("a.png", "one/color.png");
+    std::fs::write(&file, found).unwrap();
+    let detections = read_detections(&file, &dataset, None).unwrap();
+    let counts: Vec<usize> = detections.iter().map(Vec::len).collect();
+    assert_eq!(counts, [0, 2]);
     let one = DetectionDataset::read(dir.path().join("one"), None).unwrap();
     assert_eq!(one.images[0].labels.len(), 2);
     let message = DetectionDataset::read(dir.path().join("three"), None)

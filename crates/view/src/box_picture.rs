@@ -89,7 +89,7 @@ pub fn draw_boxes(image: &ColorImage, marks: &[BoxMark]) -> Result<ColorImage, V
         if !text.is_empty() && is_free && plate[3] <= height as i32 {
             let edges = [x, y, size.0, size.1].map(|v| v as f32);
             canvas.plate(edges, 2.0, palette::PLATE, 0.8);
-            font.write(&mut canvas, &text, x + 2, y, false, mark.kind.color());
+            font.write(&mut canvas, &text, x + 2, y, false, palette::TEXT);
             plates.push(plate);
         }
     }

@@ -3,6 +3,7 @@ use clap::Parser;
 use pomona_cloud::read_boxes;
 use pomona_detect::{DetectError, DetectorReport, RuntimeReport};
 use serde_json::Value;
+use std::path::Path;
 use tempfile::TempDir;
 
 /// Sees one box in the middle of an image, one that reaches out of it, and one beyond it.
@@ -44,7 +45,7 @@ impl Detector for Middle {
                 library: None,
                 fallback_reason: Some("nothing else found".to_owned()),
             }),
-            ..DetectorReport::default()
+            notes: vec!["the input's size is open".to_owned()],
         }
     }
 }

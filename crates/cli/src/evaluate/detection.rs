@@ -1,4 +1,5 @@
 use super::{DETECTION, EvaluateArguments, REPORT, detection_text, json, refuse_foreign, say};
+use crate::detect;
 use crate::detector::{BUILT_IN, DetectorSettings, Model, parse_class, parse_model, parse_share};
 use crate::output_folder::{OutputFolder, write_text};
 use crate::progress;
@@ -162,8 +163,12 @@ impl DetectionArguments {
         for (number, model) in models.iter().enumerate() {
             let (name, class) = (model_name(model), class_of(number).cloned());
             let options = self.settings.options(model, class, Some(self.lowest_score));
-            let what = What::Detector(options.open()?);
-            opened.push(Opened { name, what });
+            let detector = options.open()?;
+            detect::say(&detector.report(), terminal);
+            opened.push(Opened {
+                name,
+                what: What::Detector(detector),
+            });
         }
         for (number, path) in self.boxes.iter().enumerate() {
             let detections = read_detections(path, dataset, class_of(models.len() + number))?;

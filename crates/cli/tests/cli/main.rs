@@ -10,6 +10,7 @@ mod bad_frames;
 mod binary;
 mod calibrate;
 mod convert;
+mod detect;
 mod detected;
 mod detection;
 mod fuse;

@@ -172,9 +172,16 @@ impl ImageIndex {
     fn find(&self, name: &str) -> Option<usize> {
         let file = name.rsplit('/').next().unwrap_or(name);
         let candidates = [name, without_ending(name), file, without_ending(file)];
+        // A frame's image is called after its folder.
+        let frame = name
+            .rsplit_once('/')
+            .filter(|_| without_ending(file) == "color");
+        let candidates = candidates
+            .into_iter()
+            .chain(frame.map(|(folder, _)| folder.rsplit('/').next().unwrap_or(folder)));
         candidates
-            .iter()
-            .find_map(|name| self.names.get(*name).copied().flatten())
+            .into_iter()
+            .find_map(|name| self.names.get(name).copied().flatten())
     }
 
     fn numbered(&self, number: u64) -> Option<usize> {

@@ -1,16 +1,24 @@
 use crate::{DetectError, ModelDescription, ModelSource};
 
+/// What stands for the built-in model in reports and messages.
+const NAME: &str = "built-in apple model";
+
+/// The network; `model/README.md` is its card, `training/` its recipe.
+static NETWORK: &[u8] = include_bytes!("../model/apple.onnx");
+
+/// How it is read.
+const DESCRIPTION: &str = include_str!("../model/apple.toml");
+
 /// The model that is part of the program, its name, and its description.
 ///
 /// # Errors
 ///
-/// [`DetectError::Model`]: this build holds none. One comes in as `include_bytes!` of `model/apple.onnx` and
-/// `include_str!` of `model/apple.toml`.
+/// None that a caller could meet: the description is tested with the program.
 pub(crate) fn model() -> Result<(ModelSource, String, ModelDescription), DetectError> {
-    Err(DetectError::Model {
-        model: "built-in model".to_owned(),
-        place: "the program".to_owned(),
-        problem: "this build holds no model".to_owned(),
-        remedy: "name an ONNX file, or give boxes".to_owned(),
-    })
+    let source = ModelSource::BuiltIn {
+        name: NAME,
+        bytes: NETWORK,
+    };
+    let description = ModelDescription::parse(DESCRIPTION, NAME)?;
+    Ok((source, NAME.to_owned(), description))
 }

@@ -44,6 +44,7 @@ impl Detector for Middle {
                 library: None,
                 fallback_reason: Some("nothing else found".to_owned()),
             }),
+            notes: Vec::new(),
         }
     }
 }

@@ -1,5 +1,6 @@
 //! The model that is part of the program.
 
+#![cfg(feature = "embedded")]
 #![allow(
     clippy::unwrap_used,
     reason = "the functions that tests share are tests too"

@@ -1,5 +1,6 @@
 //! A published network on real frames, where the folder with both is there.
 
+#![cfg(feature = "embedded")]
 #![allow(clippy::unwrap_used, reason = "helpers of tests fail as tests do")]
 
 use pomona_cloud::{ColorImage, Frame, PixelBox};

@@ -162,7 +162,9 @@ impl DetectionArguments {
         let mut opened: Vec<Opened> = Vec::new();
         for (number, model) in models.iter().enumerate() {
             let (name, class) = (model_name(model), class_of(number).cloned());
-            let options = self.settings.options(model, class, Some(self.lowest_score));
+            // What counts at the threshold has to be there.
+            let lowest = self.lowest_score.min(self.threshold);
+            let options = self.settings.options(model, class, Some(lowest));
             let detector = options.open()?;
             detect::say(&detector.report(), terminal);
             opened.push(Opened {

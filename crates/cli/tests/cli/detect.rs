@@ -20,12 +20,6 @@ fn what_cannot_be_used_is_refused_and_nothing_is_written() {
     refused("a", &["--model", &gone], &["gone.onnx"]);
     let embedded = ["--runtime", "embedded", "--model"];
     refused("a", &[&embedded[..], &[&broken]].concat(), &["broken.onnx"]);
-    let library = bench.text("libnothing.so");
-    refused(
-        "a",
-        &["--model", &broken, "--runtime", &library],
-        &["libnothing.so"],
-    );
     let usage = pomona(&["detect", &bench.text("a"), "--out", "x", "--tiles", "3by2"]);
     assert_eq!(usage.code, 2);
     assert!(usage.err.contains("3x2"), "{}", usage.err);

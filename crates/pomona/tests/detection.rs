@@ -1,5 +1,10 @@
 //! From a colour image to directions: a frame without boxes, and a detector that knows the truth.
 
+#![allow(
+    clippy::unwrap_used,
+    reason = "the functions that tests share are tests too"
+)]
+
 use pomona::{Config, Mark, Picker, Record, Status, find_apples};
 use pomona_cloud::{ColorImage, Frame};
 use pomona_detect::{DetectError, Detection, Detector, DetectorReport};

@@ -365,4 +365,6 @@ fn the_frame_that_comes_along_is_read() {
     let dataset = DetectionDataset::read(frames, None).unwrap();
     assert_eq!(dataset.images[0].name, "orchard-demo");
     assert!(!dataset.images[0].labels.is_empty());
+    // The other one has no boxes: there, apples are to be found.
+    assert_eq!((dataset.images.len(), dataset.frames_without_boxes), (1, 1));
 }

@@ -4,6 +4,9 @@ use pomona_cloud::{ColorImage, Frame, PixelBox};
 use pomona_geometry::{Capsule, Segment, Sphere};
 use pomona_view::{AppleMark, Overlay, ViewError};
 
+/// More boxes than these leave no room for the reasons of refusals: those stand by their numbers in the table.
+const CROWDED: usize = 60;
+
 /// Brings what a robot plans back into the picture.
 pub(crate) struct RobotView<'a> {
     pub(crate) robot_from_camera: &'a RobotFromCamera,
@@ -17,9 +20,17 @@ pub(crate) fn draw(
     robot: Option<&RobotView<'_>>,
 ) -> Result<ColorImage, ViewError> {
     let picks = outcome.record.picks.iter();
+    let crowded = picks.len() > CROWDED;
     let marks: Vec<AppleMark> = picks
         .zip(&outcome.evidence)
-        .map(|(p, e)| mark(p, e, robot))
+        .map(|(p, e)| {
+            let mut mark = mark(p, e, robot);
+            if crowded && mark.refused.is_some() {
+                mark.caption = None;
+                mark.refused = Some(String::new());
+            }
+            mark
+        })
         .collect();
     Overlay::new(&frame.color, &frame.camera).draw(&marks)
 }

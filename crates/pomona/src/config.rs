@@ -1,7 +1,7 @@
+use crate::config_error::{ConfigError, require};
 use crate::{DetectionConfig, FallbackConfig, FusionConfig, RobustConfig};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
-use thiserror::Error;
 
 /// Which method calculates the directions.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -102,38 +102,6 @@ impl Default for PaperConfig {
     }
 }
 
-/// A setting that makes no sense, or a file that is not one of settings.
-#[derive(Debug, Error)]
-#[non_exhaustive]
-pub enum ConfigError {
-    /// The file could not be read.
-    #[error("settings '{path}': {source}; give the path of a TOML file")]
-    Read {
-        /// The file.
-        path: String,
-        /// Why.
-        source: std::io::Error,
-    },
-    /// It is not TOML, or has a name or type that settings do not have.
-    #[error("settings '{path}': {source}")]
-    Parse {
-        /// The file.
-        path: String,
-        /// Where and why.
-        source: Box<toml::de::Error>,
-    },
-    /// A value outside of what makes sense.
-    #[error("setting {name} = {value}: it must be {rule}")]
-    Value {
-        /// Its name.
-        name: &'static str,
-        /// Its value.
-        value: String,
-        /// What is asked of it.
-        rule: &'static str,
-    },
-}
-
 impl Config {
     /// Reads settings from a TOML file and checks them.
     ///
@@ -165,23 +133,6 @@ impl Config {
         self.robust.validate()?;
         self.detection.validate()?;
         self.fusion.validate()
-    }
-}
-
-pub(crate) fn require(
-    ok: bool,
-    name: &'static str,
-    value: impl std::fmt::Display + Copy,
-    rule: &'static str,
-) -> Result<(), ConfigError> {
-    if ok {
-        Ok(())
-    } else {
-        Err(ConfigError::Value {
-            name,
-            value: value.to_string(),
-            rule,
-        })
     }
 }
 

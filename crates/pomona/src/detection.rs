@@ -1,43 +1,32 @@
 //! From a frame to the boxes of its apples: a detector's, checked and joined by depth.
 
 mod appearance;
+mod candidate;
 mod joining;
 mod look;
+mod mark;
 mod record;
 mod roundness;
 mod samples;
 mod search;
 mod settings;
 
-pub use look::Mark;
+pub use candidate::FoundBox;
+pub use mark::Mark;
 pub use record::{DetectionRecord, DetectionTiming, FoundBy, FoundRecord};
 pub use settings::DetectionConfig;
 
-use crate::robust::Optics;
+use crate::optics::Projection;
 use crate::seed::apple_rng;
 use crate::{Config, PickError};
+use candidate::{Candidate, SEED};
 use joining::join;
-use look::{Look, Looker};
+use look::Looker;
 use pomona_cloud::{ColorImage, Frame, PixelBox};
 use pomona_detect::{Detection, Detector};
-use pomona_geometry::Sphere;
 use rayon::prelude::*;
 use search::search;
 use std::time::Instant;
-
-/// Seed of the draws of all checks: a box is judged alike in every run.
-const SEED: u64 = 0x6465_7465_6374;
-
-/// A box in which an apple was looked for and may have been found.
-#[derive(Clone, Debug, PartialEq)]
-pub struct FoundBox {
-    /// The box. Its name is the detection's number, best first; `2+5` for joined ones, `d0` for one found in depth.
-    pub bounds: PixelBox,
-    /// How it was found and what depth says about it.
-    pub found: FoundRecord,
-    /// The sphere that its depth shows, metres in the camera's frame; absent where it shows none.
-    pub sphere: Option<Sphere>,
-}
 
 /// The boxes of a frame's apples, and what found them.
 #[derive(Clone, Debug, PartialEq)]
@@ -88,14 +77,14 @@ pub fn find_apples(
 
     let start = Instant::now();
     let bounds = named(&detections, &frame.color);
-    let Some(optics) = Optics::new(&frame.camera) else {
+    let Some(projection) = Projection::new(&frame.camera) else {
         // Frame::validate has computed with the lens.
         return Ok(Found {
             boxes: Vec::new(),
             record,
         });
     };
-    let looker = Looker::new(&frame.depth, &optics, config);
+    let looker = Looker::new(&frame.depth, &projection, config);
     let candidates: Vec<Candidate> = bounds
         .into_par_iter()
         .enumerate()
@@ -114,42 +103,22 @@ pub fn find_apples(
         candidates.extend(more);
         record.timing_ms.depth_search = Some(milliseconds(start));
     }
-    record.count(&candidates);
+    count(&mut record, &candidates);
     let boxes = candidates.into_iter().map(Candidate::finish).collect();
     Ok(Found { boxes, record })
 }
 
-/// A box and what depth says about it.
-#[derive(Clone, Debug)]
-struct Candidate {
-    bounds: PixelBox,
-    found_by: FoundBy,
-    look: Look,
-    /// Detections that were joined in it.
-    parts: usize,
-}
-
-impl Candidate {
-    fn new(bounds: PixelBox, found_by: FoundBy, look: Look) -> Self {
-        Self {
-            bounds,
-            found_by,
-            look,
-            parts: 1,
-        }
-    }
-
-    fn finish(self) -> FoundBox {
-        FoundBox {
-            bounds: self.bounds,
-            found: FoundRecord {
-                found_by: self.found_by,
-                mark: self.look.mark,
-                merged: (self.parts > 1).then_some(self.parts),
-            },
-            sphere: self.look.sphere,
-        }
-    }
+/// Counts what became of the boxes.
+fn count(record: &mut DetectionRecord, candidates: &[Candidate]) {
+    let number = |wanted: &dyn Fn(&Candidate) -> bool| {
+        candidates
+            .iter()
+            .filter(|candidate| wanted(candidate))
+            .count()
+    };
+    record.merged = candidates.iter().map(|c| c.parts - 1).sum();
+    record.marked = number(&|c| c.look.mark.refuses());
+    record.by_depth = number(&|c| c.found_by == FoundBy::Depth);
 }
 
 /// The detections as boxes of the image, named by their number; what holds no pixel is left out.

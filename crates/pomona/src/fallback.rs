@@ -1,11 +1,15 @@
 //! A direction for an apple whose branch is not known, where one is asked for.
 
-use crate::surroundings::window_of;
-use crate::{Evidence, Pick};
+mod settings;
+
+pub use settings::{DirectionSource, FallbackConfig, FallbackKind};
+
+use crate::optics::window_of;
+use crate::outcome::Evidence;
+use crate::record::Pick;
 use nalgebra::{Point3, Vector3};
 use pomona_cloud::{DepthPoints, Frame};
 use pomona_geometry::Sphere;
-use serde::{Deserialize, Serialize};
 
 /// How far from the centre obstacles count, radii.
 const REACH: f64 = 3.0;
@@ -13,50 +17,6 @@ const REACH: f64 = 3.0;
 const SURFACE: (f64, f64) = (1.15, 0.003);
 /// Points that make the nearest obstacle: fewer are flying pixels.
 const OBSTACLE_POINTS: usize = 12;
-
-/// Settings of what is given in place of a direction that is refused.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct FallbackConfig {
-    /// `none`, `surface_normal` or `away_from_obstacle`. Default none. Others give refused apples with a sphere
-    /// a way to come in, labelled as such; the apple stays refused.
-    pub kind: FallbackKind,
-}
-
-/// What is given in place of a direction that is refused.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-#[non_exhaustive]
-pub enum FallbackKind {
-    /// Nothing.
-    #[default]
-    None,
-    /// Against the mean normal of the visible cap: from the side that shows, into the apple.
-    SurfaceNormal,
-    /// From the side that faces away from the nearest obstacle, towards it; where nothing is near, as `SurfaceNormal`.
-    AwayFromObstacle,
-}
-
-/// Where a direction that is no branch's comes from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-#[non_exhaustive]
-pub enum DirectionSource {
-    /// The mean normal of the visible cap.
-    SurfaceNormal,
-    /// The nearest obstacle.
-    AwayFromObstacle,
-}
-
-impl DirectionSource {
-    /// Its name in `picks.json`.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::SurfaceNormal => "surface_normal",
-            Self::AwayFromObstacle => "away_from_obstacle",
-        }
-    }
-}
 
 /// Direction and source for a pick that has a sphere and no direction; `surface` of the evidence are the pixels of its cap.
 ///

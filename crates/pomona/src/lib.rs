@@ -58,10 +58,13 @@
 //! Based on 3D Vision", Agriculture 12(8), 1170, doi 10.3390/agriculture12081170.
 
 mod config;
+mod config_error;
 mod detection;
 mod error;
 mod fallback;
 mod fusion;
+mod optics;
+mod outcome;
 mod paper;
 mod picker;
 mod plan_record;
@@ -72,9 +75,9 @@ mod robot;
 mod robust;
 pub mod ros;
 mod seed;
-mod surroundings;
 
-pub use config::{Config, ConfigError, Method, PaperConfig};
+pub use config::{Config, Method, PaperConfig};
+pub use config_error::ConfigError;
 pub use detection::{
     DetectionConfig, DetectionRecord, DetectionTiming, Found, FoundBox, FoundBy, FoundRecord, Mark,
     find_apples,
@@ -86,7 +89,9 @@ pub use fusion::{
     Fusion, FusionConfig, FusionError, MovedRecord, PlaceUse, PosedRecord, ShiftRecord,
     SightingRecord, fuse,
 };
-pub use picker::{Evidence, Outcome, Picker, RobotFromCamera};
+pub use optics::SensorPreset;
+pub use outcome::{Evidence, Outcome, RobotFromCamera};
+pub use picker::Picker;
 pub use plan_record::{
     ApproachRecord, ClearanceRecord, GripperRecord, OrderRecord, PathRecord, PieceRecord,
     PlanRecord, PoseRecord, SampleRecord, WayRecord,
@@ -97,4 +102,4 @@ pub use record::{
     Record, RobotRecord, SCHEMA, Status, TimingRecord,
 };
 pub use robot::{Robot, RobotPlan};
-pub use robust::{RobustConfig, SensorPreset};
+pub use robust::RobustConfig;

@@ -1,37 +1,17 @@
+use crate::optics::window_of;
+use crate::outcome::{Evidence, Outcome, RobotFromCamera};
+use crate::seed::apple_rng;
 use crate::{
     AppleRecord, BoxRecord, BranchRecord, Config, FallbackRecord, Found, FrameRecord, Method, Pick,
     PickError, PlanRecord, Record, RobotRecord, SCHEMA, Status, TimingRecord, fallback, paper,
-    robust, seed::apple_rng, surroundings::window_of,
+    robust,
 };
 use nalgebra::{Point3, Vector3};
 use pomona_cloud::{DepthPoints, Frame, PixelWindow};
 use pomona_geometry::Sphere;
-use pomona_transforms::{
-    CameraFrame, Direction, NamedTransform, Position, RobotFrame, ToolOrientation,
-};
+use pomona_transforms::{CameraFrame, Direction, Position, ToolOrientation};
 use rayon::prelude::*;
 use std::time::Instant;
-
-/// The transform that brings camera coordinates into the robot's frame.
-pub type RobotFromCamera = NamedTransform<RobotFrame, CameraFrame>;
-
-/// What supports one answer: pixels of the depth image as `v * width + u`, for pictures.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Evidence {
-    /// Pixels on the apple's surface.
-    pub surface: Vec<u32>,
-    /// Pixels on its branch.
-    pub branch: Vec<u32>,
-}
-
-/// The answers for a frame.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Outcome {
-    /// What `picks.json` holds.
-    pub record: Record,
-    /// The evidence of each pick, in the same order.
-    pub evidence: Vec<Evidence>,
-}
 
 /// Memory that serves one apple after another.
 #[derive(Default)]

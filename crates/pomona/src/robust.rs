@@ -9,8 +9,7 @@ mod branch;
 mod confidence;
 mod contour;
 mod lines;
-mod patch;
-mod sensor;
+mod ray;
 mod settings;
 mod shell;
 mod sphere;
@@ -18,12 +17,11 @@ mod strips;
 mod view;
 mod walk;
 
-pub(crate) use patch::Optics;
-pub(crate) use sensor::Noise;
-pub use sensor::SensorPreset;
 pub use settings::RobustConfig;
 
-use crate::{AppleRecord, BranchRecord, CandidateRecord, Evidence, Pick, Status};
+use crate::optics::Projection;
+use crate::outcome::Evidence;
+use crate::{AppleRecord, BranchRecord, CandidateRecord, Pick, Status};
 use apple::{AppleBuffers, AppleSearch, Found, MARGIN_PX};
 use branch::{Candidate, Search};
 use pomona_cloud::{Frame, PixelWindow};
@@ -56,7 +54,7 @@ pub(crate) fn pick_apple(
     pick: &mut Pick,
     evidence: &mut Evidence,
 ) -> Status {
-    let Some(optics) = Optics::new(&frame.camera) else {
+    let Some(projection) = Projection::new(&frame.camera) else {
         return Status::NoDepth;
     };
     let noise = config.noise();
@@ -65,13 +63,13 @@ pub(crate) fn pick_apple(
     let b = &pick.pixel_box;
     let window = PixelWindow::clamped(b.x_min, b.y_min, b.x_max, b.y_max, width, height);
     let around = window.grown(MARGIN_PX, width, height);
-    scratch.apple.patch.fill(&frame.depth, &optics, around);
+    scratch.apple.patch.fill(&frame.depth, &projection, around);
     pick.timing_ms.crop = milliseconds(start);
 
     let start = Instant::now();
     let search = AppleSearch {
         config,
-        optics: &optics,
+        projection: &projection,
         noise,
         bounds: b,
         window,
@@ -89,11 +87,11 @@ pub(crate) fn pick_apple(
     let apple = body.sphere();
     let reach = (config.branch_reach + SHELL_MARGIN) * apple.radius;
     let shell = &mut scratch.shell;
-    shell.fill(&frame.depth, &optics, &body, reach, noise);
+    shell.fill(&frame.depth, &projection, &body, reach, noise);
     evidence.surface = shell.pixels_of(APPLE);
     let search = Search {
         shell,
-        optics: &optics,
+        projection: &projection,
         apple,
         sigma: noise.sigma(apple.center.z),
         config,

@@ -1,8 +1,9 @@
 //! Boxes of one apple become one box.
 
-use super::look::{Looker, Mark};
+use super::candidate::{Candidate, SEED};
+use super::look::Looker;
+use super::mark::Mark;
 use super::samples::Samples;
-use super::{Candidate, SEED};
 use crate::seed::apple_rng;
 use pomona_cloud::PixelBox;
 use pomona_geometry::Sphere;
@@ -76,6 +77,6 @@ fn hull(a: &PixelBox, b: &PixelBox) -> PixelBox {
 
 /// Whether the sphere's outline fills the box by and large.
 fn frames(bounds: &PixelBox, sphere: &Sphere, looker: &Looker<'_>) -> bool {
-    let outline = 2.0 * sphere.radius / looker.optics.pixel_m(sphere.center.z);
+    let outline = 2.0 * sphere.radius / looker.projection.pixel_m(sphere.center.z);
     bounds.width().max(bounds.height()) <= HULL * outline
 }

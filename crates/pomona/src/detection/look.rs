@@ -1,10 +1,11 @@
 //! What depth says about one box.
 
-use super::DetectionConfig;
+use super::mark::Mark;
 use super::roundness::Roundness;
 use super::samples::{Samples, Tally};
+use super::settings::DetectionConfig;
 use crate::Config;
-use crate::robust::{Noise, Optics};
+use crate::optics::{DepthNoise, Projection};
 use nalgebra::{Matrix4, Point3, Vector3, Vector4};
 use pomona_cloud::{DepthImage, PixelBox, PixelWindow};
 use pomona_fit::{
@@ -14,67 +15,6 @@ use pomona_fit::{
 use pomona_geometry::{Plane, Sphere};
 use pomona_ransac::{FixedCount, InlierCount, Msac, Ransac};
 use rand_chacha::ChaCha8Rng;
-use serde::{Deserialize, Serialize};
-
-/// What depth says about a detector's box.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-#[non_exhaustive]
-pub enum Mark {
-    /// It shows a sphere of an apple's size, or too little to say that there is none.
-    Plausible,
-    /// Not looked at: the settings leave depth out.
-    Unchecked,
-    /// It holds too few readings to judge by. The method decides, as for any box.
-    NoDepth,
-    /// What it shows is farther off than apples are picked.
-    TooFar,
-    /// What is round in it is smaller than an apple.
-    TooSmall,
-    /// What is round in it, or the box itself at its depth, is larger than an apple.
-    TooLarge,
-    /// It shows a flat surface: a leaf, a wall, a picture of an apple.
-    Flat,
-    /// It shows a surface that bends in one direction only, as branches do, or no surface that holds together.
-    NotRound,
-    /// The apple that shows in it has a better box.
-    OfAnother,
-}
-
-impl Mark {
-    /// All of them.
-    pub const ALL: [Self; 9] = [
-        Self::Plausible,
-        Self::Unchecked,
-        Self::NoDepth,
-        Self::TooFar,
-        Self::TooSmall,
-        Self::TooLarge,
-        Self::Flat,
-        Self::NotRound,
-        Self::OfAnother,
-    ];
-
-    /// Its name in `picks.json`.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Plausible => "plausible",
-            Self::Unchecked => "unchecked",
-            Self::NoDepth => "no_depth",
-            Self::TooFar => "too_far",
-            Self::TooSmall => "too_small",
-            Self::TooLarge => "too_large",
-            Self::Flat => "flat",
-            Self::NotRound => "not_round",
-            Self::OfAnother => "of_another",
-        }
-    }
-
-    /// Whether it says that the box holds no apple to be picked.
-    pub fn refuses(self) -> bool {
-        !matches!(self, Self::Plausible | Self::Unchecked | Self::NoDepth)
-    }
-}
 
 /// Spheres through four random readings that are tried.
 const DRAWS: u64 = 64;
@@ -145,16 +85,20 @@ impl Look {
 /// Looks at the boxes of one depth image.
 pub(super) struct Looker<'a> {
     pub(super) depth: &'a DepthImage,
-    pub(super) optics: &'a Optics<'a>,
+    pub(super) projection: &'a Projection<'a>,
     pub(super) config: &'a DetectionConfig,
-    noise: Noise,
+    noise: DepthNoise,
 }
 
 impl<'a> Looker<'a> {
-    pub(super) fn new(depth: &'a DepthImage, optics: &'a Optics<'a>, config: &'a Config) -> Self {
+    pub(super) fn new(
+        depth: &'a DepthImage,
+        projection: &'a Projection<'a>,
+        config: &'a Config,
+    ) -> Self {
         Self {
             depth,
-            optics,
+            projection,
             config: &config.detection,
             noise: config.robust.noise(),
         }
@@ -173,7 +117,7 @@ impl<'a> Looker<'a> {
         let (width, height) = (self.depth.width, self.depth.height);
         let b = bounds;
         let window = PixelWindow::clamped(b.x_min, b.y_min, b.x_max, b.y_max, width, height);
-        samples.fill(self.depth, self.optics, window);
+        samples.fill(self.depth, self.projection, window);
         if samples.len() < self.config.min_readings {
             return Look::of(Mark::NoDepth);
         }
@@ -181,7 +125,7 @@ impl<'a> Looker<'a> {
         if front > self.config.range_max_m {
             return Look::of(Mark::TooFar);
         }
-        let metres = self.optics.pixel_m(front);
+        let metres = self.projection.pixel_m(front);
         let (less, more) = (b.width().min(b.height()), b.width().max(b.height()));
         if 0.5 * less * metres > LOOSE_BOX * self.config.radius_max_m {
             return Look::of(Mark::TooLarge);
@@ -299,10 +243,10 @@ impl<'a> Looker<'a> {
 
     /// How far the box reaches beyond the sphere's outline at its worst edge, as a share of its longer side.
     fn beyond(&self, bounds: &PixelBox, sphere: &Sphere) -> f64 {
-        let Some((u, v)) = self.optics.project(&sphere.center) else {
+        let Some((u, v)) = self.projection.project(&sphere.center) else {
             return f64::INFINITY;
         };
-        let half = sphere.radius / self.optics.pixel_m(sphere.center.z);
+        let half = sphere.radius / self.projection.pixel_m(sphere.center.z);
         let b = bounds;
         let edges = [
             u - half - b.x_min,

@@ -1,4 +1,4 @@
-use super::{Candidate, Mark};
+use super::mark::Mark;
 use pomona_detect::DetectorReport;
 use serde::{Deserialize, Serialize};
 
@@ -99,18 +99,6 @@ impl DetectionRecord {
             notes: report.notes.clone(),
             ..Self::default()
         }
-    }
-
-    pub(super) fn count(&mut self, candidates: &[Candidate]) {
-        let number = |wanted: &dyn Fn(&Candidate) -> bool| {
-            candidates
-                .iter()
-                .filter(|candidate| wanted(candidate))
-                .count()
-        };
-        self.merged = candidates.iter().map(|c| c.parts - 1).sum();
-        self.marked = number(&|c| c.look.mark.refuses());
-        self.by_depth = number(&|c| c.found_by == FoundBy::Depth);
     }
 
     /// Adds what came after the boxes.

@@ -1,6 +1,6 @@
 //! The readings of a box on a grid that is as coarse as the box is large.
 
-use crate::robust::Optics;
+use crate::optics::Projection;
 use nalgebra::Point3;
 use pomona_cloud::{DepthImage, PixelWindow};
 use pomona_geometry::Sphere;
@@ -30,17 +30,22 @@ pub(super) struct Samples {
 
 impl Samples {
     /// Replaces the content by that of `window`.
-    pub(super) fn fill(&mut self, depth: &DepthImage, optics: &Optics<'_>, window: PixelWindow) {
+    pub(super) fn fill(
+        &mut self,
+        depth: &DepthImage,
+        projection: &Projection<'_>,
+        window: PixelWindow,
+    ) {
         for values in [&mut self.x, &mut self.y, &mut self.z] {
             values.clear();
         }
         self.pixel.clear();
         self.blind.clear();
         let step = ((window.pixel_count() as f64 / CELLS as f64).sqrt().round() as usize).max(1);
-        let scale = optics.camera.depth_scale;
+        let scale = projection.camera.depth_scale;
         for v in (window.y0 + step / 2..window.y1).step_by(step) {
             for u in (window.x0 + step / 2..window.x1).step_by(step) {
-                let Some((rx, ry)) = optics.ray(u as f64, v as f64) else {
+                let Some((rx, ry)) = projection.ray(u as f64, v as f64) else {
                     continue;
                 };
                 let i = v * depth.width + u;

@@ -1,9 +1,11 @@
 //! Apples that the colour misses: spheres among the readings outside of the boxes.
 
 use super::appearance::{Palette, Shade, same_size};
-use super::look::{Looker, Mark};
+use super::candidate::{Candidate, SEED};
+use super::look::Looker;
+use super::mark::Mark;
+use super::record::FoundBy;
 use super::samples::Samples;
-use super::{Candidate, FoundBy, SEED};
 use crate::seed::apple_rng;
 use pomona_cloud::{Frame, PixelBox};
 use pomona_geometry::Sphere;
@@ -126,14 +128,14 @@ fn surface<'s>(
 fn places(looker: &Looker<'_>) -> Vec<PixelBox> {
     let (depth, config) = (looker.depth, looker.config);
     let radius = 0.5 * (config.radius_min_m + config.radius_max_m);
-    let scale = looker.optics.camera.depth_scale;
+    let scale = looker.projection.camera.depth_scale;
     let reading = |u: f64, v: f64| -> Option<f64> {
         let inside = u >= 0.0 && v >= 0.0;
         let reading = inside.then(|| depth.get(u.round() as usize, v.round() as usize))??;
         Some(f64::from(reading) * scale)
     };
     // The grid is as fine as the farthest apples need; nearer ones use every so manieth place of it.
-    let fine = (STEP * radius / looker.optics.pixel_m(config.range_max_m))
+    let fine = (STEP * radius / looker.projection.pixel_m(config.range_max_m))
         .floor()
         .max(2.0);
     let mut places = Vec::new();
@@ -143,7 +145,7 @@ fn places(looker: &Looker<'_>) -> Vec<PixelBox> {
             let Some(z) = reading(u, v).filter(|&z| z <= config.range_max_m) else {
                 continue;
             };
-            let apple = radius / looker.optics.pixel_m(z);
+            let apple = radius / looker.projection.pixel_m(z);
             let every = ((STEP * apple / fine) as usize).max(1);
             if row % every != 0 || column % every != 0 {
                 continue;
@@ -172,8 +174,8 @@ fn places(looker: &Looker<'_>) -> Vec<PixelBox> {
 
 /// The box about the outline of a sphere; `None` where it lies outside of the image or about the camera.
 fn outline(sphere: &Sphere, looker: &Looker<'_>) -> Option<PixelBox> {
-    let (u, v) = looker.optics.project(&sphere.center)?;
-    let half = sphere.radius / looker.optics.pixel_m(sphere.center.z);
+    let (u, v) = looker.projection.project(&sphere.center)?;
+    let half = sphere.radius / looker.projection.pixel_m(sphere.center.z);
     let bounds = PixelBox {
         name: String::new(),
         x_min: u - half,

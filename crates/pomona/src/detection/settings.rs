@@ -1,4 +1,4 @@
-use crate::config::{ConfigError, require};
+use crate::config_error::{ConfigError, require};
 use serde::{Deserialize, Serialize};
 
 /// Settings of what depth says about the boxes of a detector. The noise of the readings is that of

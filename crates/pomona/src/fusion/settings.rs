@@ -1,4 +1,4 @@
-use crate::config::{ConfigError, require};
+use crate::config_error::{ConfigError, require};
 use serde::{Deserialize, Serialize};
 
 /// Settings of the fusion of several frames of one tree.

@@ -3,9 +3,8 @@
 use super::blocks::{Area, Blocks};
 use super::body::{Body, BodyFit, BodyPrior, Course, Sightings, fit_body};
 use super::contour::{agreement, grazing_rays};
-use super::patch::{Optics, Patch};
-use super::sensor::Noise;
 use super::sphere::{BoxRays, candidates, support};
+use crate::optics::{DepthNoise, DepthPatch, Projection, depth_jump_m};
 use crate::{BoxRecord, RobustConfig, Status};
 use nalgebra::{Point3, Unit, Vector3};
 use pomona_cloud::PixelWindow;
@@ -24,8 +23,8 @@ const ROUND_SUPPORT_M: f64 = 0.0008;
 /// Fewest blocks of readings that make an apple.
 const LEAST_BLOCKS: usize = 8;
 
-/// Least jump of depth between neighbours that parts two things, metres.
-const LEAST_JUMP_M: f64 = 0.008;
+/// Standard deviations of a reading between neighbours on different things.
+const JUMP_SIGMAS: f64 = 6.0;
 
 /// A fitted apple, and how well it was seen.
 #[derive(Clone, Copy, Debug)]
@@ -40,7 +39,7 @@ pub(crate) struct Found {
 /// Buffers that serve one apple after another.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct AppleBuffers {
-    pub(crate) patch: Patch,
+    pub(crate) patch: DepthPatch,
     blocks: Blocks,
     points: Vec<(Point3<f64>, f64)>,
     rays: Vec<Unit<Vector3<f64>>>,
@@ -53,8 +52,8 @@ pub(crate) const MARGIN_PX: usize = 8;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct AppleSearch<'a> {
     pub(crate) config: &'a RobustConfig,
-    pub(crate) optics: &'a Optics<'a>,
-    pub(crate) noise: Noise,
+    pub(crate) projection: &'a Projection<'a>,
+    pub(crate) noise: DepthNoise,
     pub(crate) bounds: &'a BoxRecord,
     /// The pixels of the box.
     pub(crate) window: PixelWindow,
@@ -77,7 +76,7 @@ impl AppleSearch<'_> {
         if readings < config.min_readings || buffers.blocks.len() < LEAST_BLOCKS {
             return Err(Status::TooFewPoints);
         }
-        let bounds = BoxRays::new(self.bounds, self.optics).ok_or(Status::NoSphere)?;
+        let bounds = BoxRays::new(self.bounds, self.projection).ok_or(Status::NoSphere)?;
         let front = buffers
             .blocks
             .z
@@ -113,7 +112,7 @@ impl AppleSearch<'_> {
             y1: y0 + window.height(),
         }
         .shrunk(self.config.rim_share);
-        let jump = |z: f32| (6.0 * self.noise.sigma(f64::from(z))).max(LEAST_JUMP_M) as f32;
+        let jump = |z: f32| depth_jump_m(self.noise.sigma(f64::from(z)), JUMP_SIGMAS) as f32;
         let readings = blocks.fill(patch, area, side, jump);
         let points =
             (0..blocks.len()).map(|i| (blocks.get(i), self.shared(f64::from(blocks.share[i]))));
@@ -129,7 +128,7 @@ impl AppleSearch<'_> {
 
     /// Metres of a pixel at the body's depth.
     fn pixel(&self, body: &Body) -> f64 {
-        self.optics.pixel_m(body.center.z)
+        self.projection.pixel_m(body.center.z)
     }
 
     /// What is believed of the apple: of its radius by the smaller side of the box, where boxes are trusted so far.
@@ -143,7 +142,7 @@ impl AppleSearch<'_> {
             let third = depths.len() / 3;
             let (_, depth, _) = depths.select_nth_unstable_by(third, f32::total_cmp);
             let depth = f64::from(*depth) + 0.25 * config.radius_mean_m;
-            let radius = 0.5 * side * self.optics.pixel_m(depth);
+            let radius = 0.5 * side * self.projection.pixel_m(depth);
             let radius = radius.clamp(config.radius_min_m, config.radius_max_m);
             (radius, config.box_radius_sd_m)
         } else {
@@ -167,7 +166,13 @@ impl AppleSearch<'_> {
         buffers: &mut AppleBuffers,
     ) -> Option<BodyFit> {
         let sigma = self.noise.sigma(body.center.z);
-        grazing_rays(&buffers.patch, self.optics, &body, sigma, &mut buffers.rays);
+        grazing_rays(
+            &buffers.patch,
+            self.projection,
+            &body,
+            sigma,
+            &mut buffers.rays,
+        );
         let sightings = Sightings {
             points: &buffers.points,
             rays: &buffers.rays,

@@ -1,5 +1,5 @@
-use super::sensor::{Noise, SensorPreset};
-use crate::config::{ConfigError, require};
+use crate::config_error::{ConfigError, require};
+use crate::optics::{DepthNoise, SensorPreset};
 use serde::{Deserialize, Serialize};
 
 /// Settings of the method `robust`.
@@ -100,10 +100,10 @@ impl Default for RobustConfig {
 
 impl RobustConfig {
     /// The noise of the depth readings.
-    pub(crate) fn noise(&self) -> Noise {
+    pub(crate) fn noise(&self) -> DepthNoise {
         let preset = self.sensor.noise();
         match self.noise_m[..] {
-            [a, b, c] => Noise {
+            [a, b, c] => DepthNoise {
                 law: [a, b, c],
                 ..preset
             },

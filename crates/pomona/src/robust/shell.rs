@@ -1,16 +1,14 @@
 //! The surroundings of an apple: a patch of depth in which apples are marked.
 
 use super::body::Body;
-use super::patch::{Optics, Patch};
-use super::sensor::Noise;
-use crate::surroundings::window_of;
+use crate::optics::{DepthNoise, DepthPatch, Projection, window_of};
 use pomona_cloud::{DepthImage, PixelWindow};
 use pomona_geometry::Sphere;
 
 /// Depth about an apple, and what each pixel shows.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Shell {
-    pub(crate) patch: Patch,
+    pub(crate) patch: DepthPatch,
     pub(crate) seen: Vec<u8>,
 }
 
@@ -23,25 +21,28 @@ impl Shell {
     pub(crate) fn fill(
         &mut self,
         depth: &DepthImage,
-        optics: &Optics<'_>,
+        projection: &Projection<'_>,
         own: &Body,
         reach: f64,
-        noise: Noise,
+        noise: DepthNoise,
     ) {
         let (w, h) = (depth.width, depth.height);
         let around = Sphere {
             center: own.center,
             radius: reach,
         };
-        self.patch
-            .fill(depth, optics, window_of(&around, optics.camera, w, h));
+        self.patch.fill(
+            depth,
+            projection,
+            window_of(&around, projection.camera, w, h),
+        );
         let (near, far) = (own.center.z - reach, own.center.z + reach);
         self.seen.clear();
         self.seen.extend(self.patch.z.iter().map(|&z| {
             let z = f64::from(z);
             if z > near && z < far { THING } else { NOTHING }
         }));
-        self.mark(optics, own, w, h, noise);
+        self.mark(projection, own, w, h, noise);
     }
 
     /// Indices in the whole image of the pixels that show `what`.
@@ -52,11 +53,11 @@ impl Shell {
 
     fn mark(
         &mut self,
-        optics: &Optics<'_>,
+        projection: &Projection<'_>,
         body: &Body,
         width: usize,
         height: usize,
-        noise: Noise,
+        noise: DepthNoise,
     ) {
         let sd = noise.sigma(body.center.z);
         let band = 0.0015 + 2.5 * sd;
@@ -72,7 +73,7 @@ impl Shell {
             x1: x0 + patch.width,
             y1: y0 + patch.height,
         };
-        let window = window_of(&around, optics.camera, width, height).intersection(whole);
+        let window = window_of(&around, projection.camera, width, height).intersection(whole);
         for v in window.y0..window.y1 {
             for u in window.x0..window.x1 {
                 let i = (v - y0) * patch.width + (u - x0);
@@ -80,7 +81,7 @@ impl Shell {
                     continue;
                 }
                 let p = patch.point_at(u - x0, v - y0, patch.z[i]);
-                // Noise lies along the ray: where the surface is seen at a slant it counts for less.
+                // DepthNoise lies along the ray: where the surface is seen at a slant it counts for less.
                 let d = p - body.center;
                 let slant = (d.dot(&p.coords) / (d.norm() * p.coords.norm()).max(1e-9)).abs();
                 let own_band = 0.0015 + 2.5 * sd * slant.max(0.25);

@@ -1,7 +1,7 @@
 //! Spheres that compete for the points of a box.
 
 use super::blocks::Blocks;
-use super::patch::Optics;
+use crate::optics::Projection;
 use crate::{BoxRecord, RobustConfig};
 use nalgebra::Point3;
 use pomona_fit::sphere_through;
@@ -26,13 +26,13 @@ pub(crate) struct BoxRays {
 
 impl BoxRays {
     /// `None` where the lens has no ray at a corner, or the box no size.
-    pub(crate) fn new(bounds: &BoxRecord, optics: &Optics<'_>) -> Option<Self> {
-        let low = optics.ray(bounds.x_min, bounds.y_min)?;
-        let high = optics.ray(bounds.x_max, bounds.y_max)?;
+    pub(crate) fn new(bounds: &BoxRecord, projection: &Projection<'_>) -> Option<Self> {
+        let low = projection.ray(bounds.x_min, bounds.y_min)?;
+        let high = projection.ray(bounds.x_max, bounds.y_max)?;
         (low.0 < high.0 && low.1 < high.1).then(|| Self {
             x: (low.0, high.0),
             y: (low.1, high.1),
-            pixel: optics.pixel_m(1.0),
+            pixel: projection.pixel_m(1.0),
         })
     }
 

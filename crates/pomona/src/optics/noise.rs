@@ -21,14 +21,14 @@ pub enum SensorPreset {
 
 /// Standard deviation of a depth reading by its depth, and how far neighbours share it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Noise {
+pub(crate) struct DepthNoise {
     /// a, b and c of a + b z + c z², metres.
     pub(crate) law: [f64; 3],
     /// Pixels over which neighbours share their error; 1 for independent ones.
     pub(crate) correlation_px: f64,
 }
 
-impl Noise {
+impl DepthNoise {
     /// Standard deviation of a reading at depth `z`, metres; at least a tenth of a millimetre.
     #[inline]
     pub(crate) fn sigma(&self, z: f64) -> f64 {
@@ -37,8 +37,17 @@ impl Noise {
     }
 }
 
+/// Least difference of depth between neighbours that belong to different things, metres.
+const LEAST_JUMP_M: f64 = 0.008;
+
+/// Difference of depth, metres, above which two neighbouring readings belong to different things: `factor` times the
+/// standard deviation `sigma` of one reading, at least 8 mm.
+pub(crate) fn depth_jump_m(sigma: f64, factor: f64) -> f64 {
+    (factor * sigma).max(LEAST_JUMP_M)
+}
+
 impl SensorPreset {
-    pub(crate) fn noise(self) -> Noise {
+    pub(crate) fn noise(self) -> DepthNoise {
         let (law, correlation_px) = match self {
             Self::Generic => ([0.0005, 0.0, 0.0014], 1.0),
             Self::Paper => ([0.0, 0.0, 0.001_562_5], 1.0),
@@ -46,7 +55,7 @@ impl SensorPreset {
             Self::AzureKinect => ([0.0007, 0.0008, 0.0], 1.0),
             Self::D400 => ([0.0, 0.0, 0.001_447], 2.0),
         };
-        Noise {
+        DepthNoise {
             law,
             correlation_px,
         }

@@ -1,11 +1,12 @@
 //! A window of the depth image in metres, with the ray of each of its pixels.
 
+use super::projection::Projection;
 use nalgebra::{Point3, Vector3};
-use pomona_cloud::{Camera, DepthImage, Lens, PixelWindow};
+use pomona_cloud::{DepthImage, Lens, PixelWindow};
 
 /// A window of a depth image: depth in metres (0 where there is no reading) and rays.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Patch {
+pub(crate) struct DepthPatch {
     /// First column and row of the window in the image.
     pub(crate) origin: (usize, usize),
     /// Columns.
@@ -23,59 +24,24 @@ pub(crate) struct Patch {
     separable: bool,
 }
 
-/// A camera whose lens has been looked up.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Optics<'a> {
-    pub(crate) camera: &'a Camera,
-    pub(crate) lens: Lens,
-}
-
-impl<'a> Optics<'a> {
-    /// `None` where the camera's distortion cannot be computed with.
-    pub(crate) fn new(camera: &'a Camera) -> Option<Self> {
-        let lens = camera.lens().ok()?;
-        Some(Self { camera, lens })
-    }
-
-    /// The pixel at which `point` is seen; `None` behind the camera.
-    pub(crate) fn project(&self, point: &Point3<f64>) -> Option<(f64, f64)> {
-        if !(point.z > 1e-6) {
-            return None;
-        }
-        let (x, y) = self.lens.distort(point.x / point.z, point.y / point.z)?;
-        Some((
-            x * self.camera.fx + self.camera.cx,
-            y * self.camera.fy + self.camera.cy,
-        ))
-    }
-
-    /// x/z and y/z of what is seen at pixel (u, v).
-    pub(crate) fn ray(&self, u: f64, v: f64) -> Option<(f64, f64)> {
-        self.lens.undistort(
-            (u - self.camera.cx) / self.camera.fx,
-            (v - self.camera.cy) / self.camera.fy,
-        )
-    }
-
-    /// Metres that a pixel spans at depth `z`.
-    pub(crate) fn pixel_m(&self, z: f64) -> f64 {
-        z / self.camera.fx
-    }
-}
-
-impl Patch {
+impl DepthPatch {
     /// Replaces the content by that of `window`.
-    pub(crate) fn fill(&mut self, depth: &DepthImage, optics: &Optics<'_>, window: PixelWindow) {
+    pub(crate) fn fill(
+        &mut self,
+        depth: &DepthImage,
+        projection: &Projection<'_>,
+        window: PixelWindow,
+    ) {
         let window = window.intersection(PixelWindow::full(depth.width, depth.height));
         self.origin = (window.x0, window.y0);
         self.width = window.width();
         self.height = window.height();
         self.stride = depth.width;
-        self.separable = optics.lens == Lens::Pinhole;
+        self.separable = projection.lens == Lens::Pinhole;
         self.z.clear();
         self.ray_x.clear();
         self.ray_y.clear();
-        let scale = optics.camera.depth_scale as f32;
+        let scale = projection.camera.depth_scale as f32;
         for v in window.y0..window.y1 {
             let row = v * depth.width;
             let readings = &depth.readings[row + window.x0..row + window.x1];
@@ -83,7 +49,7 @@ impl Patch {
                 .extend(readings.iter().map(|&r| f32::from(r) * scale));
         }
         if self.separable {
-            let camera = optics.camera;
+            let camera = projection.camera;
             let column = |u: usize| ((u as f64 - camera.cx) / camera.fx) as f32;
             let line = |v: usize| ((v as f64 - camera.cy) / camera.fy) as f32;
             self.ray_x.extend((window.x0..window.x1).map(column));
@@ -92,7 +58,7 @@ impl Patch {
         }
         for v in window.y0..window.y1 {
             for (i, u) in (window.x0..window.x1).enumerate() {
-                let ray = optics.ray(u as f64, v as f64);
+                let ray = projection.ray(u as f64, v as f64);
                 if ray.is_none() {
                     self.z[(v - window.y0) * self.width + i] = 0.0;
                 }
@@ -142,9 +108,7 @@ impl Patch {
         );
         (y * self.stride + x) as u32
     }
-}
 
-impl Patch {
     /// x/z and y/z between pixels of the window, linearly; `None` outside of it.
     pub(crate) fn ray_between(&self, x: f64, y: f64) -> Option<(f64, f64)> {
         if !(x >= 0.0 && y >= 0.0) || self.width < 2 || self.height < 2 {

@@ -81,7 +81,6 @@ mod config;
 mod error;
 mod gripper;
 mod order;
-mod outdated;
 mod outline;
 mod path;
 mod planner;
@@ -94,15 +93,15 @@ mod target;
 
 pub use clearance::{Clearance, Obstacle, Stage};
 pub use config::{
-    ApproachConfig, COMMENTED_DEFAULTS, ClearanceConfig, MotionConfig, ReachConfig, Roll,
-    SearchConfig,
+    ApproachConfig, ClearanceConfig, MotionConfig, ReachConfig, Roll, SearchConfig,
 };
-pub use error::{ConfigError, ReachLimit, Refusal};
+pub use error::{ReachLimit, Refusal};
 pub use gripper::Gripper;
 pub use order::{Order, Rank, Reason, pick_order};
 pub use path::{Path, Piece, Sample};
 pub use planner::{Approach, Planner};
 pub use point_tree::PointTree;
+pub use pomona_settings::ConfigError;
 pub use pose::tool_rotation;
 pub use quintic::{Quintic, State};
 pub use scene::Scene;

@@ -9,12 +9,10 @@ mod record;
 mod roundness;
 mod samples;
 mod search;
-mod settings;
 
 pub use candidate::FoundBox;
 pub use mark::Mark;
 pub use record::{DetectionRecord, DetectionTiming, FoundBy, FoundRecord};
-pub use settings::DetectionConfig;
 
 use crate::optics::Projection;
 use crate::seed::apple_rng;

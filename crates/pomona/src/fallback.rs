@@ -1,9 +1,10 @@
 //! A direction for an apple whose branch is not known, where one is asked for.
 
-mod settings;
+mod direction_source;
 
-pub use settings::{DirectionSource, FallbackConfig, FallbackKind};
+pub use direction_source::DirectionSource;
 
+use crate::config::FallbackKind;
 use crate::optics::window_of;
 use crate::outcome::Evidence;
 use crate::record::Pick;

@@ -51,11 +51,9 @@
 //! Based on 3D Vision", Agriculture 12(8), 1170, doi 10.3390/agriculture12081170.
 
 mod config;
-mod config_error;
 mod detection;
 mod error;
 mod fallback;
-mod fusion_config;
 mod optics;
 mod outcome;
 mod paper;
@@ -66,26 +64,26 @@ mod robot;
 mod robust;
 mod seed;
 
-pub use config::{Config, Method, PaperConfig};
-pub use config_error::ConfigError;
+pub use config::{
+    Config, DetectionConfig, FallbackConfig, FallbackKind, FruitConfig, FusionConfig, Method,
+    PaperConfig, RobustConfig, SensorPreset,
+};
 pub use detection::{
-    DetectionConfig, DetectionRecord, DetectionTiming, Found, FoundBox, FoundBy, FoundRecord, Mark,
+    DetectionRecord, DetectionTiming, Found, FoundBox, FoundBy, FoundRecord, Mark,
     find_apples,
 };
 pub use error::PickError;
-pub use fallback::{DirectionSource, FallbackConfig, FallbackKind};
-pub use fusion_config::FusionConfig;
-pub use optics::SensorPreset;
+pub use fallback::DirectionSource;
 pub use outcome::{Evidence, Outcome, RobotFromCamera};
 pub use picker::Picker;
 pub use plan_record::{
     ApproachRecord, ClearanceRecord, GripperRecord, OrderRecord, PathRecord, PieceRecord,
     PlanRecord, PoseRecord, SampleRecord, WayRecord,
 };
-pub use pomona_approach::{ApproachConfig, COMMENTED_DEFAULTS as ROBOT_DEFAULTS, Gripper};
+pub use pomona_approach::{ApproachConfig, Gripper};
+pub use pomona_settings::ConfigError;
 pub use record::{
     AppleRecord, BoxRecord, BranchRecord, CandidateRecord, FallbackRecord, FrameRecord, Pick,
     Record, RobotRecord, SCHEMA, Status, TimingRecord,
 };
 pub use robot::{Robot, RobotPlan};
-pub use robust::RobustConfig;

@@ -8,7 +8,6 @@ mod projection;
 mod sphere_window;
 
 pub(crate) use depth_patch::DepthPatch;
-pub use noise::SensorPreset;
 pub(crate) use noise::{DepthNoise, depth_jump_m};
 pub(crate) use projection::Projection;
 pub(crate) use sphere_window::window_of;

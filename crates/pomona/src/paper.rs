@@ -1,7 +1,8 @@
 //! The published method: Gao et al. 2022, Agriculture 12(8), 1170, sections 2.2.3–2.2.5,
 //! doi 10.3390/agriculture12081170.
 
-use crate::{PaperConfig, Status};
+use crate::config::{PaperConfig, Radii};
+use crate::record::Status;
 use nalgebra::Point3;
 use pomona_cloud::DepthPoints;
 use pomona_fit::{
@@ -24,6 +25,7 @@ fn points(cloud: &DepthPoints) -> Option<Points<'_, f32>> {
 pub(crate) fn fit_sphere(
     cloud: &DepthPoints,
     config: &PaperConfig,
+    radii: Radii,
     rng: &mut ChaCha8Rng,
 ) -> Result<Report<Sphere>, Status> {
     if cloud.is_empty() {
@@ -33,8 +35,7 @@ pub(crate) fn fit_sphere(
         return Err(Status::TooFewPoints);
     }
     let points = points(cloud).ok_or(Status::NoSphere)?;
-    let window = RadiusWindow::new(config.radius_min_m, config.radius_max_m)
-        .map_err(|_| Status::NoSphere)?;
+    let window = RadiusWindow::new(radii.least, radii.most).map_err(|_| Status::NoSphere)?;
     let band = config.sphere_band;
     let report = Ransac::new(InlierCount::within(move |sphere: &Sphere| {
         band * sphere.radius

@@ -172,7 +172,7 @@ impl Picker {
             Method::Robust => {
                 let mut rng = apple_rng(seed, &frame.id, pick.id);
                 let scratch = &mut buffers.scratch;
-                let config = &self.config.robust;
+                let config = &self.config;
                 robust::pick_apple(frame, config, &mut rng, scratch, &mut pick, &mut evidence)
             }
         };
@@ -217,7 +217,7 @@ impl Picker {
         pick.timing_ms.crop = milliseconds(start);
 
         let start = Instant::now();
-        let sphere = paper::fit_sphere(points, config, &mut rng);
+        let sphere = paper::fit_sphere(points, config, self.config.fruit.radii(), &mut rng);
         pick.timing_ms.sphere = milliseconds(start);
         let sphere = match sphere {
             Ok(report) => report,

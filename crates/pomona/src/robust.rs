@@ -10,16 +10,15 @@ mod confidence;
 mod contour;
 mod lines;
 mod ray;
-mod settings;
 mod shell;
 mod sphere;
 mod strips;
 mod view;
 mod walk;
 
-pub use settings::RobustConfig;
 
-use crate::optics::Projection;
+use crate::config::{Config, RobustConfig};
+use crate::optics::{DepthNoise, Projection};
 use crate::outcome::Evidence;
 use crate::{AppleRecord, BranchRecord, CandidateRecord, Pick, Status};
 use apple::{AppleBuffers, AppleSearch, Found, MARGIN_PX};
@@ -48,7 +47,7 @@ fn milliseconds(since: Instant) -> f64 {
 /// Fills in what the method finds for one apple, and says how it ended.
 pub(crate) fn pick_apple(
     frame: &Frame,
-    config: &RobustConfig,
+    settings: &Config,
     rng: &mut ChaCha8Rng,
     scratch: &mut Scratch,
     pick: &mut Pick,
@@ -57,7 +56,8 @@ pub(crate) fn pick_apple(
     let Some(projection) = Projection::new(&frame.camera) else {
         return Status::NoDepth;
     };
-    let noise = config.noise();
+    let config = &settings.robust;
+    let noise = DepthNoise::of(config);
     let start = Instant::now();
     let (width, height) = (frame.depth.width, frame.depth.height);
     let b = &pick.pixel_box;
@@ -69,6 +69,7 @@ pub(crate) fn pick_apple(
     let start = Instant::now();
     let search = AppleSearch {
         config,
+        fruit: &settings.fruit,
         projection: &projection,
         noise,
         bounds: b,

@@ -143,7 +143,7 @@ fn each_refusal_has_its_status() {
     assert_eq!(status(&tiny, &many), (Status::TooFewPoints, false));
 
     // Only spheres under a tenth of a millimetre: none has the wanted support.
-    let small = config(|c| (c.paper.radius_min_m, c.paper.radius_max_m) = (1e-6, 1e-4));
+    let small = config(|c| (c.fruit.radius_min_m, c.fruit.radius_max_m) = (1e-6, 1e-4));
     assert_eq!(status(&scene, &small), (Status::NoSphere, false));
 
     let lonely = config(|c| c.paper.line_min_points = 1_000_000);

@@ -27,7 +27,7 @@
 //!
 //! // The same declaration explains the file.
 //! let description = Description::of::<KettleConfig>();
-//! assert!(description.toml(&kettle).contains("off_at_deg_c = 85.0"));
+//! assert!(description.toml("A kettle.", &kettle).contains("off_at_deg_c = 85.0"));
 //! assert!(description.markdown().contains("hotter tea"));
 //! assert_eq!(description.json_schema("A kettle")["properties"]["on_at_deg_c"]["default"], 80.0);
 //! # Ok::<(), pomona_settings::ConfigError>(())

@@ -10,10 +10,11 @@ const WIDTH: usize = 96;
 impl Description {
     /// `settings` as TOML, each under a comment with its meaning, unit, default and rules. Reading it gives the same
     /// settings. What is left out stands there as a comment.
-    pub fn toml<T: Settings>(&self, settings: &T) -> String {
+    /// `about` stands at the head.
+    pub fn toml<T: Settings>(&self, about: &str, settings: &T) -> String {
         // Settings are numbers, words, flags and lists of numbers, in tables: nothing that TOML has no form for.
         let values = Table::try_from(settings).unwrap_or_default();
-        let mut text = String::new();
+        let mut text = wrapped(about) + "\n";
         let mut section = "";
         for setting in &self.settings {
             let (own_section, name) = setting.section_and_name();
@@ -21,7 +22,7 @@ impl Description {
                 section = own_section;
                 let meaning = self.sections.iter().find(|s| s.path == section);
                 let meaning = meaning.map_or("", |s| &s.meaning);
-                let gap = if text.is_empty() { "" } else { "\n" };
+                let gap = if text.ends_with("\n\n") { "" } else { "\n" };
                 // Writing to a string cannot fail, here and below.
                 let _ = write!(text, "{gap}{}[{section}]\n\n", wrapped(meaning));
             }

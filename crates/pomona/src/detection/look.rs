@@ -3,8 +3,7 @@
 use super::mark::Mark;
 use super::roundness::Roundness;
 use super::samples::{Samples, Tally};
-use super::settings::DetectionConfig;
-use crate::Config;
+use crate::config::{Config, DetectionConfig, Radii};
 use crate::optics::{DepthNoise, Projection};
 use nalgebra::{Matrix4, Point3, Vector3, Vector4};
 use pomona_cloud::{DepthImage, PixelBox, PixelWindow};
@@ -87,6 +86,8 @@ pub(super) struct Looker<'a> {
     pub(super) depth: &'a DepthImage,
     pub(super) projection: &'a Projection<'a>,
     pub(super) config: &'a DetectionConfig,
+    /// Radii of what is taken for an apple.
+    pub(super) radii: Radii,
     noise: DepthNoise,
 }
 
@@ -100,7 +101,8 @@ impl<'a> Looker<'a> {
             depth,
             projection,
             config: &config.detection,
-            noise: config.robust.noise(),
+            radii: config.fruit.checked(),
+            noise: DepthNoise::of(&config.robust),
         }
     }
 
@@ -127,10 +129,10 @@ impl<'a> Looker<'a> {
         }
         let metres = self.projection.pixel_m(front);
         let (less, more) = (b.width().min(b.height()), b.width().max(b.height()));
-        if 0.5 * less * metres > LOOSE_BOX * self.config.radius_max_m {
+        if 0.5 * less * metres > LOOSE_BOX * self.radii.most {
             return Look::of(Mark::TooLarge);
         }
-        if 0.5 * more * metres < LOOSE_BOX * self.config.radius_min_m
+        if 0.5 * more * metres < LOOSE_BOX * self.radii.least
             && let Some(small) = self.too_small(bounds, samples, rng)
         {
             return small;
@@ -141,11 +143,10 @@ impl<'a> Looker<'a> {
     /// The first of a few spheres that could be an apple, or why none could. Whatever was taken for
     /// one and is none, a leaf before the apple, is left out when the next is looked for.
     fn apple(&self, bounds: &PixelBox, samples: &mut Samples, rng: &mut ChaCha8Rng) -> Look {
-        let radii = (self.config.radius_min_m, self.config.radius_max_m);
         samples.all_left();
         let mut first = Look::of(Mark::NotRound);
         for attempt in 0..ATTEMPTS {
-            let Some(sphere) = self.sphere(radii, samples, rng) else {
+            let Some(sphere) = self.sphere(self.radii, samples, rng) else {
                 break;
             };
             let look = self.judge(bounds, sphere, samples);
@@ -190,7 +191,7 @@ impl<'a> Looker<'a> {
         let bent = |r: &Roundness| r.least + UNSURE * r.least_sd < self.config.least_roundness;
         // A surface that would be flatter if it could, and shows little.
         let stretched =
-            sphere.radius > 0.98 * self.config.radius_max_m && tally.coverage() < STRETCHED_SHOWN;
+            sphere.radius > 0.98 * self.radii.most && tally.coverage() < STRETCHED_SHOWN;
         let mark = if z - sphere.radius > self.config.range_max_m {
             Mark::TooFar
         } else if roundness.as_ref().is_some_and(bent)
@@ -219,9 +220,13 @@ impl<'a> Looker<'a> {
         samples: &mut Samples,
         rng: &mut ChaCha8Rng,
     ) -> Option<Look> {
-        let least = self.config.radius_min_m;
+        let least = self.radii.least;
         samples.all_left();
-        let sphere = self.sphere((least / 4.0, self.config.radius_max_m), samples, rng)?;
+        let smaller_too = Radii {
+            least: least / 4.0,
+            ..self.radii
+        };
+        let sphere = self.sphere(smaller_too, samples, rng)?;
         let look = self.judge(bounds, sphere, samples);
         let small = sphere.radius + 2.0 * self.radius_sd(&sphere, samples) < least;
         (small && look.mark == Mark::Plausible).then_some(Look {
@@ -272,14 +277,14 @@ impl<'a> Looker<'a> {
     /// seen.
     fn sphere(
         &self,
-        bounds: (f64, f64),
+        bounds: Radii,
         samples: &mut Samples,
         rng: &mut ChaCha8Rng,
     ) -> Option<Sphere> {
         if samples.left_z.len() < self.config.min_readings {
             return None;
         }
-        let (least, most) = bounds;
+        let Radii { least, most } = bounds;
         let front = samples.left_depth_at(0.25);
         let behind = Plane::new(Point3::new(0.0, 0.0, front), Vector3::z())?;
         let points = Points::new(&samples.left_x, &samples.left_y, &samples.left_z).ok()?;
@@ -324,7 +329,7 @@ impl<'a> Looker<'a> {
             let row = Vector4::new(n.x, n.y, n.z, 1.0);
             information += weight * row * row.transpose();
         }
-        let half = 0.5 * (self.config.radius_max_m - self.config.radius_min_m);
+        let half = 0.5 * (self.radii.most - self.radii.least);
         information[(3, 3)] += half.powi(-2);
         information.try_inverse().map_or(half, |covariance| {
             covariance[(3, 3)].max(0.0).sqrt().min(half)

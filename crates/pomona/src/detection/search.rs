@@ -127,7 +127,7 @@ fn surface<'s>(
 /// Boxes about the places where the depth image bulges, by the middle of an apple's size.
 fn places(looker: &Looker<'_>) -> Vec<PixelBox> {
     let (depth, config) = (looker.depth, looker.config);
-    let radius = 0.5 * (config.radius_min_m + config.radius_max_m);
+    let radius = 0.5 * (looker.radii.least + looker.radii.most);
     let scale = looker.projection.camera.depth_scale;
     let reading = |u: f64, v: f64| -> Option<f64> {
         let inside = u >= 0.0 && v >= 0.0;

@@ -1,23 +1,4 @@
-use serde::{Deserialize, Serialize};
-
-/// A depth camera whose noise is known.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-#[non_exhaustive]
-pub enum SensorPreset {
-    /// No camera in particular: 0.5 mm + 1.4 mm/m² z², which lies near all of the others from 0.7 to 1.5 m.
-    #[default]
-    Generic,
-    /// The paper's structured-light camera: 1 mm at 0.8 m, growing with z².
-    Paper,
-    /// The first Kinect: 1.2 mm + 1.9 mm/m² (z − 0.4 m)² (Nguyen, Izadi and Lovell 2012,
-    /// doi 10.1109/3DIMPVT.2012.84).
-    Kinect,
-    /// Azure Kinect: 0.7 mm + 0.8 mm/m z.
-    AzureKinect,
-    /// RealSense D400: 0.08 pixels of disparity, shared by neighbours within 4 pixels.
-    D400,
-}
+use crate::config::{RobustConfig, SensorPreset};
 
 /// Standard deviation of a depth reading by its depth, and how far neighbours share it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,6 +10,15 @@ pub(crate) struct DepthNoise {
 }
 
 impl DepthNoise {
+    /// That of the readings, as the settings state it.
+    pub(crate) fn of(config: &RobustConfig) -> Self {
+        let preset = config.sensor.noise();
+        Self {
+            law: config.noise_m.unwrap_or(preset.law),
+            ..preset
+        }
+    }
+
     /// Standard deviation of a reading at depth `z`, metres; at least a tenth of a millimetre.
     #[inline]
     pub(crate) fn sigma(&self, z: f64) -> f64 {
@@ -47,7 +37,7 @@ pub(crate) fn depth_jump_m(sigma: f64, factor: f64) -> f64 {
 }
 
 impl SensorPreset {
-    pub(crate) fn noise(self) -> DepthNoise {
+    fn noise(self) -> DepthNoise {
         let (law, correlation_px) = match self {
             Self::Generic => ([0.0005, 0.0, 0.0014], 1.0),
             Self::Paper => ([0.0, 0.0, 0.001_562_5], 1.0),

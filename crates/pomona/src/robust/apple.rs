@@ -4,8 +4,9 @@ use super::blocks::{Area, Blocks};
 use super::body::{Body, BodyFit, BodyPrior, Course, Sightings, fit_body};
 use super::contour::{agreement, grazing_rays};
 use super::sphere::{BoxRays, candidates, support};
+use crate::config::{FruitConfig, RobustConfig};
 use crate::optics::{DepthNoise, DepthPatch, Projection, depth_jump_m};
-use crate::{BoxRecord, RobustConfig, Status};
+use crate::record::{BoxRecord, Status};
 use nalgebra::{Point3, Unit, Vector3};
 use pomona_cloud::PixelWindow;
 use pomona_geometry::Sphere;
@@ -52,6 +53,7 @@ pub(crate) const MARGIN_PX: usize = 8;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct AppleSearch<'a> {
     pub(crate) config: &'a RobustConfig,
+    pub(crate) fruit: &'a FruitConfig,
     pub(crate) projection: &'a Projection<'a>,
     pub(crate) noise: DepthNoise,
     pub(crate) bounds: &'a BoxRecord,
@@ -84,13 +86,20 @@ impl AppleSearch<'_> {
             .fold(f32::INFINITY, |a, &b| a.min(b));
         let sigma = noise.sigma(f64::from(front)) * self.shared(1.0 / side as f64);
         let threshold = 2.5 * sigma.hypot(ROUND_SUPPORT_M);
-        let spheres = candidates(&buffers.blocks, &bounds, config, threshold, rng);
+        let spheres = candidates(
+            &buffers.blocks,
+            &bounds,
+            config,
+            self.fruit.hypotheses(),
+            threshold,
+            rng,
+        );
         let (agreement, sphere) = self
             .best_sphere(&spheres, &bounds, threshold, buffers)
             .ok_or(Status::NoSphere)?;
         let fit = self.flattened(sphere, buffers).ok_or(Status::NoSphere)?;
         let radius = fit.body.radius;
-        if radius < 0.9 * config.radius_min_m || radius > 1.1 * config.radius_max_m {
+        if !self.fruit.fitted().contains(radius) {
             return Err(Status::ImplausibleRadius);
         }
         let outline = (radius / self.pixel(&fit.body)).powi(2) * std::f64::consts::PI;
@@ -134,6 +143,7 @@ impl AppleSearch<'_> {
     /// What is believed of the apple: of its radius by the smaller side of the box, where boxes are trusted so far.
     fn prior(&self, blocks: &Blocks) -> BodyPrior {
         let config = self.config;
+        let mean = config.radius_mean_m.unwrap_or(self.fruit.prior_mean());
         let radius = if config.box_radius_sd_m > 0.0 {
             let b = self.bounds;
             let side = (b.x_max - b.x_min).min(b.y_max - b.y_min);
@@ -141,12 +151,14 @@ impl AppleSearch<'_> {
             let mut depths = blocks.z.clone();
             let third = depths.len() / 3;
             let (_, depth, _) = depths.select_nth_unstable_by(third, f32::total_cmp);
-            let depth = f64::from(*depth) + 0.25 * config.radius_mean_m;
+            let depth = f64::from(*depth) + 0.25 * mean;
             let radius = 0.5 * side * self.projection.pixel_m(depth);
-            let radius = radius.clamp(config.radius_min_m, config.radius_max_m);
+            let tried = self.fruit.hypotheses();
+            let radius = radius.clamp(tried.least, tried.most);
             (radius, config.box_radius_sd_m)
         } else {
-            (config.radius_mean_m, config.radius_sd_m)
+            let sd = config.radius_sd_m.unwrap_or(self.fruit.prior_sd());
+            (mean, sd)
         };
         BodyPrior {
             radius,
@@ -191,6 +203,7 @@ impl AppleSearch<'_> {
         buffers: &mut AppleBuffers,
     ) -> Option<(f64, Body)> {
         let config = self.config;
+        let tried = self.fruit.hypotheses();
         let prior = BodyPrior {
             shape_sd: ROUND_SD_M,
             ..self.prior(&buffers.blocks)
@@ -209,7 +222,7 @@ impl AppleSearch<'_> {
             let Some(body) = refined.map(|fit| fit.body) else {
                 continue;
             };
-            if !(config.radius_min_m..=config.radius_max_m).contains(&body.radius) {
+            if !tried.contains(body.radius) {
                 continue;
             }
             let outline = agreement(&buffers.rays, &body, 2.5 * self.pixel(&body));

@@ -1,8 +1,9 @@
 //! Spheres that compete for the points of a box.
 
 use super::blocks::Blocks;
+use crate::config::{Radii, RobustConfig};
 use crate::optics::Projection;
-use crate::{BoxRecord, RobustConfig};
+use crate::record::BoxRecord;
 use nalgebra::Point3;
 use pomona_fit::sphere_through;
 use pomona_geometry::Sphere;
@@ -129,6 +130,7 @@ pub(crate) fn candidates(
     points: &Blocks,
     bounds: &BoxRays,
     config: &RobustConfig,
+    radii: Radii,
     threshold: f64,
     rng: &mut ChaCha8Rng,
 ) -> Vec<Sphere> {
@@ -136,7 +138,7 @@ pub(crate) fn candidates(
     let mut best: Vec<(f64, Sphere)> = Vec::with_capacity(config.sphere_kept + 1);
     let mut consider = |sphere: Sphere| {
         let r = sphere.radius;
-        if r < config.radius_min_m || r > config.radius_max_m {
+        if !radii.contains(r) {
             return;
         }
         let against = config.box_weight * bounds.disagreement(&sphere);

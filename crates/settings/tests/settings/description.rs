@@ -34,9 +34,9 @@ fn every_setting_is_listed_in_order() {
 
 #[test]
 fn the_file_explains_itself() {
-    let text = Description::of::<OvenConfig>().toml(&OvenConfig::default());
+    let text = Description::of::<OvenConfig>().toml("An oven.", &OvenConfig::default());
     for part in [
-        "# How it heats. static: From above and below. hot-air: With a fan. Unit: name; default\n# \"hot-air\".\nheat = \"hot-air\"\n",
+        "# An oven.\n\n# How it heats. static: From above and below. hot-air: With a fan. Unit: name; default\n# \"hot-air\".\nheat = \"hot-air\"\n",
         "\n# How warm it gets.\n[temperature]\n",
         "\n# probe_m = [0.0, 0.1, 0.2]\n",
         "level = 2\n",

@@ -25,7 +25,7 @@ fn a_printed_file_reads_back_the_same() {
     });
     let description = Description::of::<OvenConfig>();
     for config in [OvenConfig::default(), changed] {
-        let text = description.toml(&config);
+        let text = description.toml("An oven.", &config);
         assert_eq!(oven(&text).unwrap(), config, "{text}");
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("oven.toml");

@@ -38,9 +38,7 @@ pub(crate) struct ScenesArguments {
 
 pub(crate) fn run(arguments: &ScenesArguments) -> anyhow::Result<()> {
     let Some(name) = &arguments.suite else {
-        let suites = Suite::ALL.iter();
-        let lines = suites.map(|s| format!("{:<12}{}\n", s.name(), plural(s.len(), "scene")));
-        return terminal::print(&lines.collect::<String>());
+        return terminal::print(&suite_list());
     };
     let suite = Suite::named(name)?;
     let cases: Vec<Case> = suite
@@ -75,6 +73,15 @@ pub(crate) fn run(arguments: &ScenesArguments) -> anyhow::Result<()> {
     ))
 }
 
+/// The suites and their sizes, in columns.
+fn suite_list() -> String {
+    let suites = Suite::ALL.iter();
+    let width = suites.clone().map(|s| s.name().len()).max().unwrap_or(0);
+    suites
+        .map(|s| format!("{:<width$}  {}\n", s.name(), plural(s.len(), "scene")))
+        .collect()
+}
+
 /// The case with another seed; its name says so, so that draws can stand side by side.
 fn reseeded(mut case: Case, more: u64) -> Case {
     if more > 0 {
@@ -90,6 +97,15 @@ fn reseeded(mut case: Case, more: u64) -> Case {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn columns_of_the_list_are_apart() {
+        for line in suite_list().lines() {
+            let words: Vec<&str> = line.split_whitespace().collect();
+            assert!(Suite::named(words[0]).is_ok(), "{line}");
+            assert!(words[1].parse::<usize>().is_ok(), "{line}");
+        }
+    }
 
     #[test]
     fn a_seed_shows_in_the_name() {

@@ -5,7 +5,7 @@ mod detection_text;
 mod text;
 
 use crate::output_folder::{OutputFolder, RecordFile};
-use crate::pick_files::PICKS;
+use crate::pick::PICKS;
 use crate::progress;
 use crate::settings::SettingValues;
 use crate::terminal::{self, Terminal};
@@ -13,7 +13,8 @@ use anyhow::{anyhow, bail};
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 use pomona::{
-    ApproachConfig, Config, Method, Outcome, PickError, Picker, Record, Robot, RobotFromCamera,
+    ApproachConfig, CheckedFrame, Config, FrameAnswer, Method, PickError, Picker, Robot,
+    RobotFromCamera,
 };
 use pomona_cloud::Frame;
 use pomona_evaluate::{
@@ -21,8 +22,6 @@ use pomona_evaluate::{
     caliper_page, evaluate, evaluate_with_robot, measure_calipers, read_calipers, report_page,
 };
 use serde::Serialize;
-use serde::de::IntoDeserializer;
-use serde::de::value::{Error, StrDeserializer};
 use std::path::{Path, PathBuf};
 
 const EXAMPLES: &str = "\
@@ -127,17 +126,17 @@ impl PickMethod for Named {
         &self.name
     }
 
-    fn answer(&self, frame: &Frame, seed: u64) -> Result<Record, PickError> {
+    fn answer(&self, frame: &CheckedFrame<'_>, seed: u64) -> Result<FrameAnswer, PickError> {
         self.picker.answer(frame, seed)
     }
 
-    fn outcome(
+    fn answer_for_robot(
         &self,
-        frame: &Frame,
+        frame: &CheckedFrame<'_>,
         seed: u64,
         robot_from_camera: &RobotFromCamera,
-    ) -> Result<Outcome, PickError> {
-        self.picker.outcome(frame, seed, robot_from_camera)
+    ) -> Result<FrameAnswer, PickError> {
+        self.picker.answer_for_robot(frame, seed, robot_from_camera)
     }
 }
 

@@ -4,7 +4,7 @@
 //! Arguments: suites or folders with truth, `--frame FOLDER` for a frame that has boxes alone, `--count N` frames of
 //! each suite, `--config FILE` settings, `--json`.
 
-use pomona::{Config, find_apples};
+use pomona::{CheckedFrame, Config, find_apples};
 use pomona_cloud::Frame;
 use pomona_detect::Detection;
 use pomona_evaluate::{
@@ -61,7 +61,7 @@ fn list(frame: &Frame, config: &Config) -> Result<(), Box<dyn Error>> {
     let detector = FixedDetector {
         detections: detections.collect(),
     };
-    let found = find_apples(frame, &detector, config)?;
+    let found = find_apples(&CheckedFrame::new(frame)?, &detector, config)?;
     println!("{}:", frame.id);
     for found in &found.boxes {
         let numbers = found.bounds.name.split('+').filter_map(|n| n.parse().ok());
@@ -76,7 +76,7 @@ fn list(frame: &Frame, config: &Config) -> Result<(), Box<dyn Error>> {
         let sphere = found.sphere.map_or_else(String::new, |s| {
             format!("r {:.1} mm at {:.3} m", s.radius * 1e3, s.center.z)
         });
-        println!("  {name:<10} {:<10} {sphere}", found.found.mark.name());
+        println!("  {name:<10} {:<10} {sphere}", found.origin.mark.name());
     }
     Ok(())
 }

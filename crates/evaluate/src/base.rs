@@ -9,8 +9,7 @@ pub use mounting::{CalibrationNoise, Mounting};
 pub use row::{BaseRow, DirectionTerms, PlannedRow, PositionTerms, Term};
 
 use crate::{EvaluateError, PickMethod, Subject};
-use pomona::{Record, Robot};
-use pomona_cloud::Frame;
+use pomona::{CheckedFrame, FrameAnswer, Robot};
 use pomona_transforms::NamedTransform;
 
 /// Name of the simulated robot's frame.
@@ -45,20 +44,20 @@ impl RobotTrial {
     pub(crate) fn answer(
         &self,
         method: &dyn PickMethod,
-        frame: &Frame,
+        frame: &CheckedFrame<'_>,
         seed: u64,
         mounting: &Mounting,
-    ) -> Result<Record, EvaluateError> {
+    ) -> Result<FrameAnswer, EvaluateError> {
         let transform = NamedTransform {
             covariance: Some(mounting.estimate.covariance),
             ..NamedTransform::new(
                 mounting.estimate.transform,
                 BASE,
-                frame.camera.frame_id.clone(),
+                frame.frame().camera.frame_id.clone(),
             )
         };
-        let mut outcome = method.outcome(frame, seed, &transform)?;
-        self.robot.plan(frame, &mut outcome, &transform)?;
-        Ok(outcome.record)
+        let mut answer = method.answer_for_robot(frame, seed, &transform)?;
+        self.robot.plan(frame, &mut answer, &transform);
+        Ok(answer)
     }
 }

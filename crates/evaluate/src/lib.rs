@@ -91,7 +91,7 @@ pub use detection::{
 pub use error::EvaluateError;
 pub use grouping::{Difficulty, Group, Grouping};
 pub use lab::LabRow;
-pub use matching::{SAME_APPLE_IOU, match_picks};
+pub use matching::{SAME_APPLE_IOU, match_answers};
 pub use method::PickMethod;
 pub use reliability::{ConfidenceBin, RIGHT_RAD, Reliability, RiskPoint, SdCalibration, UNSURE};
 pub use repeatability::Repeatability;

@@ -83,6 +83,7 @@ mod json;
 mod matrix;
 mod named;
 mod position;
+mod position_covariance;
 mod quaternion;
 mod tool;
 mod tool_model;
@@ -97,6 +98,8 @@ pub use frame::{CameraFrame, FlangeFrame, FrameTag, RobotFrame, TargetFrame, Too
 pub use json::{MAX_TRANSLATION_M, SCHEMA};
 pub use named::NamedTransform;
 pub use position::Position;
+pub use position_covariance::PositionCovariance;
+pub use quaternion::canonical_xyzw;
 pub use tool::{SINGULAR_ANGLE_RAD, ToolOrientation, paper_as_printed_euler};
 pub use tool_model::{ToolModel, UNKNOWN_ANGLE_SIGMA_RAD, UncertainToolOrientation};
 pub use transform::Transform;

@@ -10,7 +10,7 @@ const CELLS: usize = 324;
 
 /// Places of a window of the depth image, each with its ray and, where there is one, its reading.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Samples {
+pub(super) struct GridReadings {
     /// Points with a reading, metres.
     pub(super) x: Vec<f32>,
     pub(super) y: Vec<f32>,
@@ -28,7 +28,7 @@ pub(super) struct Samples {
     sorted: Vec<f32>,
 }
 
-impl Samples {
+impl GridReadings {
     /// Replaces the content by that of `window`.
     pub(super) fn fill(
         &mut self,
@@ -110,8 +110,8 @@ impl Samples {
     }
 
     /// What the samples within the outline of `sphere` show, a reading within `threshold` metres of it being of it.
-    pub(super) fn tally(&self, sphere: &Sphere, threshold: f64) -> Tally {
-        let mut tally = Tally::default();
+    pub(super) fn counts(&self, sphere: &Sphere, threshold: f64) -> SphereSupport {
+        let mut counts = SphereSupport::default();
         let c = sphere.center.coords;
         let off_axis = |rx: f64, ry: f64| {
             // Squared distance of the centre from the ray, in squared radii.
@@ -123,21 +123,21 @@ impl Samples {
             let off = off_axis(p.x / p.z, p.y / p.z);
             let distance = sphere.signed_distance(&p);
             if distance.abs() <= threshold && p.z <= c.z + threshold {
-                tally.shown += 1;
+                counts.on_surface += 1;
                 continue;
             }
             if off >= 1.0 {
                 continue;
             }
             if p.z > c.z && off < CORE * CORE {
-                tally.through += 1;
+                counts.behind += 1;
             } else if p.z < c.z {
-                tally.before += 1;
+                counts.in_front += 1;
             }
         }
         let hidden = |&&(rx, ry): &&(f32, f32)| off_axis(f64::from(rx), f64::from(ry)) < 1.0;
-        tally.blind = self.blind.iter().filter(hidden).count();
-        tally
+        counts.no_reading = self.blind.iter().filter(hidden).count();
+        counts
     }
 }
 
@@ -154,32 +154,32 @@ const CORE: f64 = 0.8;
 
 /// What the samples within a sphere's outline show, counted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Tally {
+pub(super) struct SphereSupport {
     /// The sphere's own surface.
-    pub(super) shown: usize,
+    pub(super) on_surface: usize,
     /// Something behind it, seen through its core.
-    pub(super) through: usize,
+    pub(super) behind: usize,
     /// Something before it.
-    pub(super) before: usize,
+    pub(super) in_front: usize,
     /// Nothing.
-    pub(super) blind: usize,
+    pub(super) no_reading: usize,
 }
 
-impl Tally {
+impl SphereSupport {
     /// Share of the readings within the outline that are of the sphere's surface.
     pub(super) fn support(&self) -> f64 {
-        let all = self.shown + self.through + self.before;
-        self.shown as f64 / all.max(1) as f64
+        let all = self.on_surface + self.behind + self.in_front;
+        self.on_surface as f64 / all.max(1) as f64
     }
 
     /// Share of the whole outline on which the surface shows.
     pub(super) fn coverage(&self) -> f64 {
-        let all = self.shown + self.through + self.before + self.blind;
-        self.shown as f64 / all.max(1) as f64
+        let all = self.on_surface + self.behind + self.in_front + self.no_reading;
+        self.on_surface as f64 / all.max(1) as f64
     }
 
     /// Of what could be surface or lies behind it, the share that lies behind.
     pub(super) fn seen_through(&self) -> f64 {
-        self.through as f64 / (self.shown + self.through).max(1) as f64
+        self.behind as f64 / (self.on_surface + self.behind).max(1) as f64
     }
 }

@@ -1,5 +1,11 @@
-use pomona_cloud::{Camera, PixelWindow};
+use pomona_cloud::{Camera, PixelBox, PixelWindow};
 use pomona_geometry::Sphere;
+
+/// The pixels of a `width` × `height` image that lie in a box; empty where there are none.
+pub(crate) fn window_of_box(bounds: &PixelBox, width: usize, height: usize) -> PixelWindow {
+    let b = bounds;
+    PixelWindow::clamped(b.x_min, b.y_min, b.x_max, b.y_max, width, height)
+}
 
 /// The pixels that can show any point of `sphere`; all of them where it reaches the camera.
 ///
@@ -7,7 +13,7 @@ use pomona_geometry::Sphere;
 /// centre (c, z) and radius r in that plane, the slopes s of its tangents solve
 /// (c − s z)² = r² (1 + s²). Lens distortion moves the edge, so the window
 /// is then widened by a tenth of its size.
-pub(crate) fn window_of(
+pub(crate) fn window_of_sphere(
     sphere: &Sphere,
     camera: &Camera,
     width: usize,
@@ -68,7 +74,7 @@ mod tests {
             let (u, v) = (camera.fx * p.x / p.z + camera.cx, camera.fy * p.y / p.z + camera.cy);
             let (u, v) = (u.round(), v.round());
             prop_assume!((0.0..1280.0).contains(&u) && (0.0..960.0).contains(&v) && p.z > 0.0);
-            prop_assert!(window_of(&sphere, &camera, 1280, 960).contains(u as usize, v as usize));
+            prop_assert!(window_of_sphere(&sphere, &camera, 1280, 960).contains(u as usize, v as usize));
         }
     }
 
@@ -86,6 +92,9 @@ mod tests {
             distortion: None,
         };
         let sphere = Sphere::new(Point3::new(0.0, 0.0, 0.1), 0.2).unwrap();
-        assert_eq!(window_of(&sphere, &camera, 8, 6), PixelWindow::full(8, 6));
+        assert_eq!(
+            window_of_sphere(&sphere, &camera, 8, 6),
+            PixelWindow::full(8, 6)
+        );
     }
 }

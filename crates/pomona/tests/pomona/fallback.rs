@@ -1,12 +1,9 @@
 //! Ways to come in for refused apples: only where asked for, labelled, and never an answer.
 
-#![allow(
-    clippy::unwrap_used,
-    reason = "a test that cannot go on should fail where it stands"
-)]
-
-use nalgebra::Vector3;
-use pomona::{Config, DirectionSource, FallbackConfig, FallbackKind, Method, Pick, Picker, Status};
+use crate::answers::answer;
+use pomona::{
+    AppleAnswer, Config, DirectionSource, FallbackConfig, FallbackKind, Method, Picker, Status,
+};
 use pomona_scenes::{Scene, Suite};
 
 /// The lab apple alone; with a plate of readings left of it where `plate` says so.
@@ -31,22 +28,24 @@ fn alone(plate: bool) -> Scene {
     scene
 }
 
-fn pick(scene: &Scene, method: Method, kind: FallbackKind) -> Pick {
+fn pick(scene: &Scene, method: Method, kind: FallbackKind) -> AppleAnswer {
     pick_if(scene, method, kind, 0.35)
 }
 
-fn pick_if(scene: &Scene, method: Method, kind: FallbackKind, least_confidence: f64) -> Pick {
+fn pick_if(
+    scene: &Scene,
+    method: Method,
+    kind: FallbackKind,
+    least_confidence: f64,
+) -> AppleAnswer {
     let mut config = Config {
         method,
         fallback: FallbackConfig { kind },
         ..Config::default()
     };
     config.robust.least_confidence = least_confidence;
-    let outcome = Picker::new(config)
-        .unwrap()
-        .pick(&scene.frame, 0, None)
-        .unwrap();
-    outcome.record.picks[0].clone()
+    let picker = Picker::new(config).unwrap();
+    answer(&picker, &scene.frame, 0).apples[0].clone()
 }
 
 #[test]
@@ -64,11 +63,11 @@ fn the_cap_is_come_at_from_the_side_that_shows_and_the_apple_stays_refused() {
         let scene = alone(false);
         let with = pick(&scene, method, FallbackKind::SurfaceNormal);
         assert_ne!(with.status, Status::Picked);
-        assert!(with.direction.is_none() && with.robot.is_none());
+        assert!(with.pick.is_none() && with.robot.is_none());
         let fallback = with.fallback.unwrap();
-        assert_eq!(fallback.direction_source, DirectionSource::SurfaceNormal);
-        let sight = Vector3::from(with.apple.unwrap().center);
-        let off = sight.angle(&Vector3::from(fallback.direction)).to_degrees();
+        assert_eq!(fallback.source, DirectionSource::SurfaceNormal);
+        let sight = with.apple.unwrap().center.point().coords;
+        let off = sight.angle(&fallback.direction.vector()).to_degrees();
         assert!(
             off < 10.0,
             "{}: {off} degrees from the line of sight",
@@ -83,9 +82,9 @@ fn the_tool_comes_from_the_side_away_from_the_obstacle() {
     let kind = FallbackKind::AwayFromObstacle;
     let with = pick_if(&alone(true), Method::Robust, kind, 1.0);
     let fallback = with.fallback.unwrap();
-    assert_eq!(fallback.direction_source, DirectionSource::AwayFromObstacle);
+    assert_eq!(fallback.source, DirectionSource::AwayFromObstacle);
     assert!(
-        fallback.direction[0] < -0.7,
+        fallback.direction.vector().x < -0.7,
         "towards the plate on the left: {:?}",
         fallback.direction
     );
@@ -96,7 +95,7 @@ fn the_tool_comes_from_the_side_away_from_the_obstacle() {
         FallbackKind::AwayFromObstacle,
     );
     assert_eq!(
-        free.fallback.unwrap().direction_source,
+        free.fallback.unwrap().source,
         DirectionSource::SurfaceNormal
     );
 }

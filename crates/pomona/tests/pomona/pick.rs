@@ -1,12 +1,9 @@
 //! The pipeline on generated frames: what it finds, what it refuses, and that it repeats itself.
 
-#![allow(
-    clippy::unwrap_used,
-    reason = "a test that cannot go on should fail where it stands"
-)]
-
+use crate::answers::{answer, picker, try_answer};
 use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3};
-use pomona::{Config, Method, PickError, Picker, RobotFromCamera, Status};
+use pomona::record::PicksRecord;
+use pomona::{CheckedFrame, Config, Method, PickError, Picker, RobotFromCamera, Status};
 use pomona_cloud::{DepthImage, PixelBox};
 use pomona_scenes::{Scene, Suite};
 use pomona_transforms::Transform;
@@ -20,46 +17,38 @@ fn lab(orientation: &str) -> Scene {
         .scene()
 }
 
-fn picker() -> Picker {
-    Picker::new(Config {
-        method: Method::Paper,
-        ..Config::default()
-    })
-    .unwrap()
-}
-
-fn degrees_between(a: [f64; 3], b: [f64; 3]) -> f64 {
-    Vector3::from(a).angle(&Vector3::from(b)).to_degrees()
+fn paper() -> Picker {
+    picker(Method::Paper)
 }
 
 #[test]
 fn finds_the_lab_apple_and_its_branch() {
     let scene = lab("x0");
-    let outcome = picker().pick(&scene.frame, 0, None).unwrap();
-    let [pick] = &outcome.record.picks[..] else {
-        panic!("one box, one pick")
+    let answer = answer(&paper(), &scene.frame, 0);
+    let [answer] = &answer.apples[..] else {
+        panic!("one box, one answer")
     };
     let truth = &scene.truth.apples[0];
-    assert_eq!(pick.status, Status::Picked);
-    let apple = pick.apple.as_ref().unwrap();
-    assert!((Point3::from(apple.center) - Point3::from(truth.center)).norm() < 0.002);
-    assert!((apple.radius - truth.radius).abs() < 0.002);
+    assert_eq!(answer.status, Status::Picked);
+    let apple = answer.apple.unwrap();
+    assert!((apple.center.point() - Point3::from(truth.center)).norm() < 0.002);
+    assert!((apple.radius_m - truth.radius).abs() < 0.002);
     // The line lies on the branch's visible side, half its thickness off the axis: about
     // atan(2.5 / 33) = 4.3° at this distance.
-    assert!(degrees_between(pick.direction.unwrap(), truth.direction.unwrap()) < 8.0);
-    let foot = Point3::from(pick.foot.unwrap());
-    let along = foot - Point3::from(apple.center);
-    let branch = pick.branch.as_ref().unwrap();
+    let pick = answer.pick.unwrap();
+    let right = Vector3::from(truth.direction.unwrap());
+    assert!(pick.direction.vector().angle(&right).to_degrees() < 8.0);
+    let along = pick.foot.point() - apple.center.point();
+    let branch = answer.branch.unwrap();
     assert!(
-        along.dot(&Vector3::from(branch.direction)).abs() < 1e-12,
+        along.dot(&branch.direction.vector()).abs() < 1e-12,
         "OC is across the branch"
     );
-    assert!(degrees_between(along.into(), pick.direction.unwrap()) < 1e-5);
+    assert!(along.angle(&pick.direction.vector()).to_degrees() < 1e-5);
 
-    let evidence = &outcome.evidence[0];
-    assert_eq!(evidence.surface.len(), apple.inliers);
-    assert_eq!(evidence.branch.len(), branch.inliers);
-    assert!(pick.robot.is_none());
+    assert_eq!(answer.evidence.surface.len(), apple.inliers);
+    assert_eq!(answer.evidence.branch.len(), branch.inliers);
+    assert!(answer.robot.is_none());
 }
 
 #[test]
@@ -70,13 +59,10 @@ fn threads_and_repetition_do_not_change_the_record() {
             .num_threads(threads)
             .build()
             .unwrap();
-        let outcome = pool
-            .install(|| picker().pick(&scene.frame, 7, None))
-            .unwrap();
-        (
-            serde_json::to_vec(&outcome.record.without_timing()).unwrap(),
-            outcome.evidence,
-        )
+        let answer = pool.install(|| answer(&paper(), &scene.frame, 7));
+        let evidence: Vec<_> = answer.apples.iter().map(|a| a.evidence.clone()).collect();
+        let record = PicksRecord::from(&answer).without_timing();
+        (serde_json::to_vec(&record).unwrap(), evidence)
     };
     let once = run(1);
     assert_eq!(once, run(1));
@@ -87,17 +73,9 @@ fn threads_and_repetition_do_not_change_the_record() {
 #[test]
 fn an_answer_does_not_depend_on_the_other_boxes_after_it() {
     let mut scene = Suite::Demo.scenes().next().unwrap();
-    let all = picker()
-        .pick(&scene.frame, 7, None)
-        .unwrap()
-        .record
-        .without_timing();
+    let all = PicksRecord::from(&answer(&paper(), &scene.frame, 7)).without_timing();
     scene.frame.boxes.as_mut().unwrap().truncate(2);
-    let two = picker()
-        .pick(&scene.frame, 7, None)
-        .unwrap()
-        .record
-        .without_timing();
+    let two = PicksRecord::from(&answer(&paper(), &scene.frame, 7)).without_timing();
     assert_eq!(all.picks[..2], two.picks[..]);
 }
 
@@ -105,11 +83,9 @@ fn an_answer_does_not_depend_on_the_other_boxes_after_it() {
 fn the_seed_counts() {
     let scene = lab("z45");
     let run = |seed| {
-        picker()
-            .pick(&scene.frame, seed, None)
+        answer(&paper(), &scene.frame, seed).apples[0]
+            .pick
             .unwrap()
-            .record
-            .picks[0]
             .direction
     };
     assert_ne!(run(0), run(1));
@@ -118,15 +94,15 @@ fn the_seed_counts() {
 #[test]
 fn each_refusal_has_its_status() {
     let status = |scene: &Scene, picker: &Picker| {
-        let picks = picker.pick(&scene.frame, 0, None).unwrap().record.picks;
-        assert!(picks[0].direction.is_none() && picks[0].foot.is_none());
-        (picks[0].status, picks[0].apple.is_some())
+        let answer = answer(picker, &scene.frame, 0);
+        assert!(answer.apples[0].pick.is_none());
+        (answer.apples[0].status, answer.apples[0].apple.is_some())
     };
     let scene = lab("x0");
 
     let mut blind = scene.clone();
     blind.frame.depth = DepthImage::empty(1280, 960);
-    assert_eq!(status(&blind, &picker()), (Status::NoDepth, false));
+    assert_eq!(status(&blind, &paper()), (Status::NoDepth, false));
 
     let mut tiny = scene.clone();
     let b = &mut tiny.frame.boxes.as_mut().unwrap()[0];
@@ -163,28 +139,27 @@ fn the_robot_gets_the_same_answer_in_its_frame() {
         "base_link",
         camera,
     );
-    let outcome = picker().pick(&scene.frame, 0, Some(&transform)).unwrap();
-    let pick = &outcome.record.picks[0];
-    let robot = pick.robot.as_ref().unwrap();
+    let frame = CheckedFrame::new(&scene.frame).unwrap();
+    let answer = paper().pick(&frame, 0, Some(&transform)).unwrap();
+    let answer = &answer.apples[0];
+    let robot = answer.robot.as_ref().unwrap();
     assert_eq!(robot.frame_id, "base_link");
-    let center = isometry * Point3::from(pick.apple.as_ref().unwrap().center);
-    assert!((center - Point3::from(robot.center)).norm() < 1e-12);
-    let direction = isometry * Vector3::from(pick.direction.unwrap());
-    assert!((direction - Vector3::from(robot.direction)).norm() < 1e-12);
-    let [x, y, z, w] = robot.quaternion_xyzw;
-    let tool = UnitQuaternion::from_quaternion(nalgebra::Quaternion::new(w, x, y, z));
+    let center = isometry * answer.apple.unwrap().center.point();
+    assert!((center - robot.center.point()).norm() < 1e-12);
+    let direction = isometry * answer.pick.unwrap().direction.vector();
+    assert!((direction - robot.direction.vector()).norm() < 1e-12);
     assert!(
-        (tool * Vector3::x() - direction).norm() < 1e-12,
+        (robot.tool.quaternion * Vector3::x() - direction).norm() < 1e-12,
         "the tool's x axis is the approach"
     );
-    assert!(!robot.singular && robot.euler_zyx[0] == 0.0);
+    assert!(!robot.tool.singular && robot.tool.euler.rx == 0.0);
 
     let other = RobotFromCamera::new(
         Transform::from_isometry(&isometry).unwrap(),
         "base_link",
         "left_camera",
     );
-    let error = picker().pick(&scene.frame, 0, Some(&other)).unwrap_err();
+    let error = paper().pick(&frame, 0, Some(&other)).unwrap_err();
     assert!(matches!(error, PickError::WrongTransform { .. }), "{error}");
 }
 
@@ -192,8 +167,7 @@ fn the_robot_gets_the_same_answer_in_its_frame() {
 fn frames_that_cannot_be_worked_on_are_errors() {
     let mut scene = lab("x0");
     scene.frame.boxes = None;
-    let error = picker()
-        .pick(&scene.frame, 0, None)
+    let error = try_answer(&paper(), &scene.frame, 0)
         .unwrap_err()
         .to_string();
     assert!(
@@ -210,24 +184,16 @@ fn frames_that_cannot_be_worked_on_are_errors() {
         score: 1.0,
     };
     scene.frame.boxes = Some(vec![bad_box]);
-    let error = picker()
-        .pick(&scene.frame, 0, None)
+    let error = try_answer(&paper(), &scene.frame, 0)
         .unwrap_err()
         .to_string();
     assert!(error.contains("inverted"), "{error}");
 
     scene.frame.boxes = Some(vec![]);
-    assert!(
-        picker()
-            .pick(&scene.frame, 0, None)
-            .unwrap()
-            .record
-            .picks
-            .is_empty()
-    );
+    assert!(answer(&paper(), &scene.frame, 0).apples.is_empty());
     scene.frame.camera.fx = 0.0;
     assert!(matches!(
-        picker().pick(&scene.frame, 0, None),
+        try_answer(&paper(), &scene.frame, 0),
         Err(PickError::Frame { .. })
     ));
 }

@@ -1,12 +1,12 @@
-//! What depth says about one box.
+//! Whether depth shows an apple in a box.
 
+use super::grid_readings::{GridReadings, SphereSupport};
 use super::mark::Mark;
 use super::roundness::Roundness;
-use super::samples::{Samples, Tally};
 use crate::config::{Config, DetectionConfig, Radii};
-use crate::optics::{DepthNoise, Projection};
+use crate::optics::{DepthNoise, Projection, window_of_box};
 use nalgebra::{Matrix4, Point3, Vector3, Vector4};
-use pomona_cloud::{DepthImage, PixelBox, PixelWindow};
+use pomona_cloud::{DepthImage, PixelBox};
 use pomona_fit::{
     CenterSide, PlaneEstimator, Points, RadiusPrior, RadiusWindow, Refusing, SphereEstimator,
     SphereRefit, sphere_weighted,
@@ -60,29 +60,29 @@ const UNSURE: f64 = 2.0;
 /// Least share of the readings within the outline that must be its surface.
 const LEAST_SUPPORT: f64 = 0.15;
 
-/// What was seen in a box.
+/// What depth says about one box.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Look {
+pub(super) struct DepthAssessment {
     pub(super) mark: Mark,
     /// The sphere that its depth shows.
     pub(super) sphere: Option<Sphere>,
-    pub(super) tally: Tally,
+    pub(super) counts: SphereSupport,
     pub(super) roundness: Option<Roundness>,
 }
 
-impl Look {
+impl DepthAssessment {
     fn of(mark: Mark) -> Self {
         Self {
             mark,
             sphere: None,
-            tally: Tally::default(),
+            counts: SphereSupport::default(),
             roundness: None,
         }
     }
 }
 
 /// Looks at the boxes of one depth image.
-pub(super) struct Looker<'a> {
+pub(super) struct DepthChecker<'a> {
     pub(super) depth: &'a DepthImage,
     pub(super) projection: &'a Projection<'a>,
     pub(super) config: &'a DetectionConfig,
@@ -91,7 +91,7 @@ pub(super) struct Looker<'a> {
     noise: DepthNoise,
 }
 
-impl<'a> Looker<'a> {
+impl<'a> DepthChecker<'a> {
     pub(super) fn new(
         depth: &'a DepthImage,
         projection: &'a Projection<'a>,
@@ -106,65 +106,69 @@ impl<'a> Looker<'a> {
         }
     }
 
-    /// Judges a box. `samples` is memory that serves one box after another; it holds the box's readings afterwards.
-    pub(super) fn look(
+    /// Judges a box. `readings` is memory that serves one box after another; it holds the box's readings afterwards.
+    pub(super) fn check(
         &self,
         bounds: &PixelBox,
         rng: &mut ChaCha8Rng,
-        samples: &mut Samples,
-    ) -> Look {
+        readings: &mut GridReadings,
+    ) -> DepthAssessment {
         if !self.config.depth_check {
-            return Look::of(Mark::Unchecked);
+            return DepthAssessment::of(Mark::Unchecked);
         }
-        let (width, height) = (self.depth.width, self.depth.height);
-        let b = bounds;
-        let window = PixelWindow::clamped(b.x_min, b.y_min, b.x_max, b.y_max, width, height);
-        samples.fill(self.depth, self.projection, window);
-        if samples.len() < self.config.min_readings {
-            return Look::of(Mark::NoDepth);
+        let window = window_of_box(bounds, self.depth.width, self.depth.height);
+        readings.fill(self.depth, self.projection, window);
+        if readings.len() < self.config.min_readings {
+            return DepthAssessment::of(Mark::NoDepth);
         }
-        let front = samples.depth_at(0.1);
+        let front = readings.depth_at(0.1);
         if front > self.config.range_max_m {
-            return Look::of(Mark::TooFar);
+            return DepthAssessment::of(Mark::TooFar);
         }
         let metres = self.projection.pixel_m(front);
-        let (less, more) = (b.width().min(b.height()), b.width().max(b.height()));
+        let (width, height) = (bounds.width(), bounds.height());
+        let (less, more) = (width.min(height), width.max(height));
         if 0.5 * less * metres > LOOSE_BOX * self.radii.most {
-            return Look::of(Mark::TooLarge);
+            return DepthAssessment::of(Mark::TooLarge);
         }
         if 0.5 * more * metres < LOOSE_BOX * self.radii.least
-            && let Some(small) = self.too_small(bounds, samples, rng)
+            && let Some(small) = self.too_small(bounds, readings, rng)
         {
             return small;
         }
-        self.apple(bounds, samples, rng)
+        self.apple(bounds, readings, rng)
     }
 
     /// The first of a few spheres that could be an apple, or why none could. Whatever was taken for
     /// one and is none, a leaf before the apple, is left out when the next is looked for.
-    fn apple(&self, bounds: &PixelBox, samples: &mut Samples, rng: &mut ChaCha8Rng) -> Look {
-        samples.all_left();
-        let mut first = Look::of(Mark::NotRound);
+    fn apple(
+        &self,
+        bounds: &PixelBox,
+        readings: &mut GridReadings,
+        rng: &mut ChaCha8Rng,
+    ) -> DepthAssessment {
+        readings.all_left();
+        let mut first = DepthAssessment::of(Mark::NotRound);
         for attempt in 0..ATTEMPTS {
-            let Some(sphere) = self.sphere(self.radii, samples, rng) else {
+            let Some(sphere) = self.sphere(self.radii, readings, rng) else {
                 break;
             };
-            let look = self.judge(bounds, sphere, samples);
-            match look.mark {
-                Mark::TooFar => return look,
-                Mark::Plausible if attempt == 0 || self.convinces(&look) => return look,
+            let check = self.judge(bounds, sphere, readings);
+            match check.mark {
+                Mark::TooFar => return check,
+                Mark::Plausible if attempt == 0 || self.convinces(&check) => return check,
                 _ => {}
             }
             if attempt == 0 {
-                first = look;
-                if self.is_flat(sphere.center.z, samples, rng) {
+                first = check;
+                if self.is_flat(sphere.center.z, readings, rng) {
                     break;
                 }
             }
-            samples.leave_out(&sphere, self.threshold(sphere.center.z));
+            readings.leave_out(&sphere, self.threshold(sphere.center.z));
         }
-        let z = first.sphere.map_or(samples.depth_at(0.5), |s| s.center.z);
-        first.mark = if self.is_flat(z, samples, rng) {
+        let z = first.sphere.map_or(readings.depth_at(0.5), |s| s.center.z);
+        first.mark = if self.is_flat(z, readings, rng) {
             Mark::Flat
         } else {
             Mark::NotRound
@@ -173,42 +177,42 @@ impl<'a> Looker<'a> {
     }
 
     /// Whether what is left of a box, less what was no apple, shows one beyond doubt.
-    fn convinces(&self, look: &Look) -> bool {
-        let round = look.roundness.as_ref();
+    fn convinces(&self, check: &DepthAssessment) -> bool {
+        let round = check.roundness.as_ref();
         round.is_some_and(|r| r.least >= self.config.least_roundness)
-            && look.tally.coverage() >= LEAST_SHOWN
+            && check.counts.coverage() >= LEAST_SHOWN
     }
 
     /// What a sphere within the bounds looks like.
-    fn judge(&self, bounds: &PixelBox, sphere: Sphere, samples: &Samples) -> Look {
+    fn judge(&self, bounds: &PixelBox, sphere: Sphere, readings: &GridReadings) -> DepthAssessment {
         let z = sphere.center.z;
         let threshold = self.threshold(z);
-        let tally = samples.tally(&sphere, threshold);
-        let near = (0..samples.len()).map(|i| samples.point(i)).filter(|p| {
+        let counts = readings.counts(&sphere, threshold);
+        let near = (0..readings.len()).map(|i| readings.point(i)).filter(|p| {
             sphere.signed_distance(p).abs() <= 1.5 * threshold && p.z <= sphere.center.z
         });
         let roundness = Roundness::of(near, &sphere, self.sigma(z));
         let bent = |r: &Roundness| r.least + UNSURE * r.least_sd < self.config.least_roundness;
         // A surface that would be flatter if it could, and shows little.
         let stretched =
-            sphere.radius > 0.98 * self.radii.most && tally.coverage() < STRETCHED_SHOWN;
+            sphere.radius > 0.98 * self.radii.most && counts.coverage() < STRETCHED_SHOWN;
         let mark = if z - sphere.radius > self.config.range_max_m {
             Mark::TooFar
         } else if roundness.as_ref().is_some_and(bent)
             || stretched
-            || tally.seen_through() > SEEN_THROUGH
-            || tally.support() < LEAST_SUPPORT
-            || tally.coverage() < LEAST_COVERAGE
+            || counts.seen_through() > SEEN_THROUGH
+            || counts.support() < LEAST_SUPPORT
+            || counts.coverage() < LEAST_COVERAGE
             || self.beyond(bounds, &sphere) > BEYOND
         {
             Mark::NotRound
         } else {
             Mark::Plausible
         };
-        Look {
+        DepthAssessment {
             mark,
             sphere: Some(sphere),
-            tally,
+            counts,
             roundness,
         }
     }
@@ -217,33 +221,33 @@ impl<'a> Looker<'a> {
     fn too_small(
         &self,
         bounds: &PixelBox,
-        samples: &mut Samples,
+        readings: &mut GridReadings,
         rng: &mut ChaCha8Rng,
-    ) -> Option<Look> {
+    ) -> Option<DepthAssessment> {
         let least = self.radii.least;
-        samples.all_left();
+        readings.all_left();
         let smaller_too = Radii {
             least: least / 4.0,
             ..self.radii
         };
-        let sphere = self.sphere(smaller_too, samples, rng)?;
-        let look = self.judge(bounds, sphere, samples);
-        let small = sphere.radius + 2.0 * self.radius_sd(&sphere, samples) < least;
-        (small && look.mark == Mark::Plausible).then_some(Look {
+        let sphere = self.sphere(smaller_too, readings, rng)?;
+        let check = self.judge(bounds, sphere, readings);
+        let small = sphere.radius + 2.0 * self.radius_sd(&sphere, readings) < least;
+        (small && check.mark == Mark::Plausible).then_some(DepthAssessment {
             mark: Mark::TooSmall,
-            ..look
+            ..check
         })
     }
 
     /// Whether one plane holds most of the readings.
-    fn is_flat(&self, z: f64, samples: &Samples, rng: &mut ChaCha8Rng) -> bool {
-        let Ok(points) = Points::new(&samples.x, &samples.y, &samples.z) else {
+    fn is_flat(&self, z: f64, readings: &GridReadings, rng: &mut ChaCha8Rng) -> bool {
+        let Ok(points) = Points::new(&readings.x, &readings.y, &readings.z) else {
             return false;
         };
         let plane = Ransac::new(InlierCount::within(WITHIN * self.noise.sigma(z)))
             .stopping(FixedCount::new(PLANES))
             .run(&PlaneEstimator::new(points), rng);
-        plane.is_ok_and(|p| p.inliers.len() as f64 >= FLAT * samples.len() as f64)
+        plane.is_ok_and(|p| p.inliers.len() as f64 >= FLAT * readings.len() as f64)
     }
 
     /// How far the box reaches beyond the sphere's outline at its worst edge, as a share of its longer side.
@@ -263,13 +267,23 @@ impl<'a> Looker<'a> {
         most / b.width().max(b.height())
     }
 
+    /// Pixels of the readings that show a sphere's surface.
+    pub(super) fn surface(&self, readings: &GridReadings, sphere: &Sphere) -> Vec<u32> {
+        let threshold = self.threshold(sphere.center.z);
+        let near = |i: &usize| sphere.signed_distance(&readings.point(*i)).abs() <= threshold;
+        (0..readings.len())
+            .filter(near)
+            .map(|i| readings.pixel[i])
+            .collect()
+    }
+
     /// Standard deviation of a reading about a sphere at depth `z`, metres.
     fn sigma(&self, z: f64) -> f64 {
         self.noise.sigma(z).hypot(ROUND_SD_M)
     }
 
     /// Distance within which a reading is of a sphere at depth `z`, metres.
-    pub(super) fn threshold(&self, z: f64) -> f64 {
+    fn threshold(&self, z: f64) -> f64 {
         WITHIN * self.sigma(z)
     }
 
@@ -278,16 +292,16 @@ impl<'a> Looker<'a> {
     fn sphere(
         &self,
         bounds: Radii,
-        samples: &mut Samples,
+        readings: &mut GridReadings,
         rng: &mut ChaCha8Rng,
     ) -> Option<Sphere> {
-        if samples.left_z.len() < self.config.min_readings {
+        if readings.left_z.len() < self.config.min_readings {
             return None;
         }
         let Radii { least, most } = bounds;
-        let front = samples.left_depth_at(0.25);
+        let front = readings.left_depth_at(0.25);
         let behind = Plane::new(Point3::new(0.0, 0.0, front), Vector3::z())?;
-        let points = Points::new(&samples.left_x, &samples.left_y, &samples.left_z).ok()?;
+        let points = Points::new(&readings.left_x, &readings.left_y, &readings.left_z).ok()?;
         let threshold = self.threshold(front);
         let report = Ransac::new(Msac::within(threshold))
             .constraint(Refusing(RadiusWindow::new(least, most).ok()?))
@@ -300,18 +314,18 @@ impl<'a> Looker<'a> {
         let wide = RadiusPrior::new(0.5 * (least + most), 0.5 * (most - least)).ok()?;
         let mut sphere = report.model;
         for _ in 0..2 {
-            let mut near = std::mem::take(&mut samples.near);
+            let mut near = std::mem::take(&mut readings.near);
             near.clear();
-            let of_it = |i: &usize| sphere.signed_distance(&samples.point(*i)).abs() <= threshold;
-            near.extend((0..samples.len()).filter(of_it));
-            let weighted = near.iter().map(|&i| (samples.point(i), weight));
+            let of_it = |i: &usize| sphere.signed_distance(&readings.point(*i)).abs() <= threshold;
+            near.extend((0..readings.len()).filter(of_it));
+            let weighted = near.iter().map(|&i| (readings.point(i), weight));
             let mut refined = sphere_weighted(weighted.clone(), &sphere, Some(wide));
             if let Some(beyond) = refined.filter(|s| !(least..=most).contains(&s.radius)) {
                 // Little of the surface leaves the radius open: the nearest one within the bounds will do.
                 let held = RadiusPrior::new(beyond.radius.clamp(least, most), HELD_M).ok()?;
                 refined = sphere_weighted(weighted, &sphere, Some(held));
             }
-            samples.near = near;
+            readings.near = near;
             sphere = refined?;
         }
         let within = (0.95 * least..=1.05 * most).contains(&sphere.radius);
@@ -319,11 +333,11 @@ impl<'a> Looker<'a> {
     }
 
     /// Standard deviation of the radius, metres, by the readings of the last refit and the prior.
-    fn radius_sd(&self, sphere: &Sphere, samples: &Samples) -> f64 {
+    fn radius_sd(&self, sphere: &Sphere, readings: &GridReadings) -> f64 {
         let weight = self.sigma(sphere.center.z).powi(-2);
         let mut information = Matrix4::zeros();
-        for &i in &samples.near {
-            let Some(n) = (samples.point(i) - sphere.center).try_normalize(1e-9) else {
+        for &i in &readings.near {
+            let Some(n) = (readings.point(i) - sphere.center).try_normalize(1e-9) else {
                 continue;
             };
             let row = Vector4::new(n.x, n.y, n.z, 1.0);

@@ -1,11 +1,10 @@
 //! From a colour image to directions: a frame without boxes, and a detector that knows the truth.
 
-#![allow(
-    clippy::unwrap_used,
-    reason = "the functions that tests share are tests too"
-)]
-
-use pomona::{Config, Mark, Picker, Record, Status, find_apples};
+use crate::answers::{answer, picker};
+use pomona::record::PicksRecord;
+use pomona::{
+    AppleAnswer, CheckedFrame, Config, FrameAnswer, Mark, Method, Picker, Status, find_apples,
+};
 use pomona_cloud::{ColorImage, Frame};
 use pomona_detect::{DetectError, Detection, Detector, DetectorReport};
 use pomona_scenes::{AppleTruth, Scene, Suite, Truth};
@@ -62,24 +61,23 @@ fn without_boxes(folder: &Path) -> Frame {
     frame
 }
 
-fn pick(frame: &Frame, detector: &dyn Detector) -> Record {
-    let config = Config::default();
-    let found = find_apples(frame, detector, &config).unwrap();
+fn pick(frame: &Frame, detector: &dyn Detector, config: Config, seed: u64) -> FrameAnswer {
+    let frame = CheckedFrame::new(frame).unwrap();
+    let found = find_apples(&frame, detector, &config).unwrap();
     let picker = Picker::new(config).unwrap();
-    picker.pick_found(frame, &found, 0, None).unwrap().record
+    picker.pick_detected(&frame, &found, seed, None).unwrap()
 }
 
 #[test]
 fn a_frame_without_boxes_gets_the_answers_of_one_with_them() {
     let truth = Truth::read(demo()).unwrap();
     let frame = without_boxes(&demo());
-    let record = pick(&frame, &Truthful::of(&truth.apples));
-    let detection = record.detection.as_ref().unwrap();
+    let answer_found = pick(&frame, &Truthful::of(&truth.apples), Config::default(), 0);
+    let detection = answer_found.detection.as_ref().unwrap();
     assert_eq!(detection.detections, truth.apples.len());
     assert_eq!(detection.merged, 0);
-    let plausible =
-        |p: &&pomona::Pick| p.pixel_box.found.is_some_and(|f| f.mark == Mark::Plausible);
-    let plausible = record.picks.iter().filter(plausible).count();
+    let plausible = |a: &&AppleAnswer| a.origin.is_some_and(|o| o.mark == Mark::Plausible);
+    let plausible = answer_found.apples.iter().filter(plausible).count();
     assert!(
         plausible * 10 >= truth.apples.len() * 9,
         "{plausible} of {}",
@@ -87,26 +85,21 @@ fn a_frame_without_boxes_gets_the_answers_of_one_with_them() {
     );
 
     let boxed = Frame::read(demo()).unwrap();
-    let picker = Picker::new(Config::default()).unwrap();
-    let given = picker.pick(&boxed, 0, None).unwrap().record;
+    let given = answer(&picker(Method::Robust), &boxed, 0);
     assert!(given.detection.is_none());
-    for (a, b) in record.picks.iter().zip(&given.picks) {
+    for (a, b) in answer_found.apples.iter().zip(&given.apples) {
         if a.status != Status::Implausible {
-            assert_eq!(
-                (a.status, &a.apple, a.direction),
-                (b.status, &b.apple, b.direction)
-            );
+            assert_eq!((a.status, &a.apple, &a.pick), (b.status, &b.apple, &b.pick));
         }
     }
-    assert!(record.picks.iter().any(|p| p.status == Status::Picked));
+    assert!(answer_found.picked().next().is_some());
 }
 
 #[test]
 fn boxes_of_a_file_leave_no_trace_of_detection_in_the_record() {
     let scene = Suite::Lab15.cases().next().unwrap().scene();
-    let picker = Picker::new(Config::default()).unwrap();
-    let record = picker.pick(&scene.frame, 0, None).unwrap().record;
-    let text = serde_json::to_string(&record).unwrap();
+    let answer = answer(&picker(Method::Robust), &scene.frame, 0);
+    let text = serde_json::to_string(&PicksRecord::from(&answer)).unwrap();
     for word in ["detection", "mark", "found_by", "merged"] {
         assert!(!text.contains(word), "{word}: {text}");
     }
@@ -122,13 +115,9 @@ fn threads_change_nothing() {
             .num_threads(threads)
             .build()
             .unwrap();
-        pool.install(|| {
-            let detector = Truthful::of(&truth.apples[..1]);
-            let found = find_apples(&frame, &detector, &config).unwrap();
-            let picker = Picker::new(config.clone()).unwrap();
-            let outcome = picker.pick_found(&frame, &found, 7, None).unwrap();
-            outcome.record.without_timing()
-        })
+        let detector = Truthful::of(&truth.apples[..1]);
+        let answer = pool.install(|| pick(&frame, &detector, config.clone(), 7));
+        PicksRecord::from(&answer).without_timing()
     };
     assert_eq!(run(1), run(3));
 }
@@ -145,8 +134,9 @@ fn depth_keeps_apples() {
             .into_iter()
             .filter(|a| a.visible_share.unwrap_or(0.0) >= 0.6)
             .collect();
+        let frame = CheckedFrame::new(&frame).unwrap();
         let found = find_apples(&frame, &Truthful::of(&well_seen), &Config::default()).unwrap();
-        refused += found.record.marked;
+        refused += found.summary.marked;
     }
     assert!(refused <= 1, "{refused}");
 }

@@ -92,9 +92,7 @@ mod sweep;
 mod target;
 
 pub use clearance::{Clearance, Obstacle, Stage};
-pub use config::{
-    ApproachConfig, ClearanceConfig, MotionConfig, ReachConfig, Roll, SearchConfig,
-};
+pub use config::{ApproachConfig, ClearanceConfig, MotionConfig, ReachConfig, Roll, SearchConfig};
 pub use error::{ReachLimit, Refusal};
 pub use gripper::Gripper;
 pub use order::{Order, Rank, Reason, pick_order};

@@ -55,8 +55,6 @@ fn printed<T: Settings>(about: &str, settings: &T, format: Format) -> anyhow::Re
     Ok(match format {
         Format::Toml => description.toml(about, settings),
         Format::Markdown => description.markdown(),
-        Format::JsonSchema => {
-            serde_json::to_string_pretty(&description.json_schema(about))? + "\n"
-        }
+        Format::JsonSchema => serde_json::to_string_pretty(&description.json_schema(about))? + "\n",
     })
 }

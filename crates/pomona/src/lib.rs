@@ -69,8 +69,7 @@ pub use config::{
     PaperConfig, RobustConfig, SensorPreset,
 };
 pub use detection::{
-    DetectionRecord, DetectionTiming, Found, FoundBox, FoundBy, FoundRecord, Mark,
-    find_apples,
+    DetectionRecord, DetectionTiming, Found, FoundBox, FoundBy, FoundRecord, Mark, find_apples,
 };
 pub use error::PickError;
 pub use fallback::DirectionSource;

@@ -16,7 +16,6 @@ mod strips;
 mod view;
 mod walk;
 
-
 use crate::config::{Config, RobustConfig};
 use crate::optics::{DepthNoise, Projection};
 use crate::outcome::Evidence;

@@ -37,8 +37,16 @@ impl fmt::Display for Range {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let least = self.lower().map(number);
         let most = self.upper().map(number);
-        let over = if self.least_allowed { "at least" } else { "over" };
-        let under = if self.most_allowed { "at most" } else { "under" };
+        let over = if self.least_allowed {
+            "at least"
+        } else {
+            "over"
+        };
+        let under = if self.most_allowed {
+            "at most"
+        } else {
+            "under"
+        };
         match (least, most) {
             (Some(least), Some(most)) if self.least_allowed && self.most_allowed => {
                 write!(f, "from {least} to {most}")

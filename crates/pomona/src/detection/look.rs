@@ -275,12 +275,7 @@ impl<'a> Looker<'a> {
 
     /// The sphere with a radius within `bounds` that most of the readings left support, with its centre behind what is
     /// seen.
-    fn sphere(
-        &self,
-        bounds: Radii,
-        samples: &mut Samples,
-        rng: &mut ChaCha8Rng,
-    ) -> Option<Sphere> {
+    fn sphere(&self, bounds: Radii, samples: &mut Samples, rng: &mut ChaCha8Rng) -> Option<Sphere> {
         if samples.left_z.len() < self.config.min_readings {
             return None;
         }

@@ -7,7 +7,11 @@ use serde_json::json;
 #[test]
 fn every_setting_is_listed_in_order() {
     let description = Description::of::<OvenConfig>();
-    let paths: Vec<&str> = description.settings.iter().map(|s| s.path.as_str()).collect();
+    let paths: Vec<&str> = description
+        .settings
+        .iter()
+        .map(|s| s.path.as_str())
+        .collect();
     assert_eq!(
         paths,
         [
@@ -20,14 +24,21 @@ fn every_setting_is_listed_in_order() {
             "tray.normal"
         ]
     );
-    let sections: Vec<&str> = description.sections.iter().map(|s| s.path.as_str()).collect();
+    let sections: Vec<&str> = description
+        .sections
+        .iter()
+        .map(|s| s.path.as_str())
+        .collect();
     assert_eq!(sections, ["temperature", "tray"]);
     let high = description.setting("temperature.high_deg_c").unwrap();
     assert_eq!(high.meaning, "Upper end. More: browner.");
     assert_eq!(high.unit, "degrees Celsius");
     assert_eq!(high.default, Some(180.0.into()));
     let rules = high.rules().unwrap();
-    assert_eq!(rules, "over 0 and at most 300, and over temperature.low_deg_c");
+    assert_eq!(
+        rules,
+        "over 0 and at most 300, and over temperature.low_deg_c"
+    );
     let heat = description.setting("heat").unwrap();
     assert!(matches!(heat.kind, Kind::Choice(all) if all.len() == Heat::ALL.len()));
 }
@@ -73,8 +84,14 @@ fn the_schema_has_every_bound() {
         (&json!("integer"), &json!(1), &json!(4))
     );
     let probe = &schema["properties"]["temperature"]["properties"]["probe_m"];
-    assert_eq!((&probe["maxItems"], &probe["items"]["minimum"]), (&json!(3), &json!(-1)));
+    assert_eq!(
+        (&probe["maxItems"], &probe["items"]["minimum"]),
+        (&json!(3), &json!(-1))
+    );
     assert!(probe.get("default").is_none());
     let heat = &schema["properties"]["heat"]["oneOf"];
-    assert_eq!(heat[1], json!({"const": "hot-air", "description": "With a fan."}));
+    assert_eq!(
+        heat[1],
+        json!({"const": "hot-air", "description": "With a fan."})
+    );
 }

@@ -45,14 +45,20 @@ fn what_is_none_of_the_settings_is_refused_with_its_place() {
         ("[tray]\nlow_deg_c = 3", &["`temperature.low_deg_c`"]),
         ("[trey]\n", &["line 1", "trey"]),
         ("[zzz]\n", &["there are heat, light"]),
-        ("temperature = 3", &["it is a section, with temperature.low"]),
+        (
+            "temperature = 3",
+            &["it is a section, with temperature.low"],
+        ),
         ("[light]\n", &["light", "true or false"]),
         ("light = \"on\"", &["light = \"on\"", "true or false"]),
         ("heat = \"cold\"", &["one of static, hot-air"]),
         ("[tray]\nlevel = -1", &["line 2", "a whole number"]),
         ("[tray]\nlevel = 1.5", &["a whole number"]),
         ("[tray]\nnormal = [0, 1]", &["a list of 3 numbers"]),
-        ("[temperature]\nlow_deg_c = nan", &["low_deg_c = nan", "over 0"]),
+        (
+            "[temperature]\nlow_deg_c = nan",
+            &["low_deg_c = nan", "over 0"],
+        ),
         ("[temperature", &["oven.toml"]),
     ] {
         let message = oven(text).unwrap_err().to_string();
@@ -68,7 +74,10 @@ fn what_is_none_of_the_settings_is_refused_with_its_place() {
 fn one_setting_can_be_changed_by_its_name() {
     let config = OvenConfig::default();
     let value = |text| word_or_value(text);
-    assert_eq!(set(&config, "heat", value("static")).unwrap().heat, Heat::Static);
+    assert_eq!(
+        set(&config, "heat", value("static")).unwrap().heat,
+        Heat::Static
+    );
     let probed = set(&config, "temperature.probe_m", value("[0, 0, 0.5]")).unwrap();
     assert_eq!(probed.temperature.probe_m, Some([0.0, 0.0, 0.5]));
     // Rules are asked once all changes are made.

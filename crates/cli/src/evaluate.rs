@@ -19,9 +19,9 @@ use pomona_evaluate::{
     CALIPER_SCHEMA, CalibrationNoise, PickMethod, RobotTrial, SCHEMA, Subject, apples_csv,
     caliper_page, evaluate, evaluate_with_robot, measure_calipers, read_calipers, report_page,
 };
-use serde::Serialize;
 use serde::de::IntoDeserializer;
 use serde::de::value::{Error, StrDeserializer};
+use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
 const EXAMPLES: &str = "\

@@ -208,7 +208,7 @@ struct Job {
 }
 
 fn jobs(arguments: &PickArguments) -> anyhow::Result<Vec<Job>> {
-    let job = |frame: &Path, out: &Path| {
+    let job = |frame: &Path, out: &Path| -> anyhow::Result<Job> {
         Ok(Job {
             frame: frame.to_owned(),
             output: pick_files::claim(out)?,

@@ -4,7 +4,9 @@ use crate::output_folder::{OutputFolder, RecordFile};
 use crate::terminal::{self, FAINT, GOOD, HEADING, REFUSED, Terminal, one_line};
 use anyhow::{anyhow, bail};
 use clap::{Args, ValueEnum};
-use pomona_calibrate::{Kind, Options, Outcome, RECORD_SCHEMA, Record, SampleSet, calibrate};
+use pomona_calibrate::{
+    Calibration, CalibrationKind, CalibrationRecord, Options, RECORD_SCHEMA, SampleSet, calibrate,
+};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
@@ -32,12 +34,12 @@ enum KindName {
 }
 
 impl KindName {
-    fn kind(self) -> Kind {
+    fn kind(self) -> CalibrationKind {
         match self {
-            Self::Points => Kind::Points,
-            Self::EyeToHand => Kind::EyeToHand,
-            Self::EyeInHand => Kind::EyeInHand,
-            Self::RobotWorld => Kind::RobotWorld,
+            Self::Points => CalibrationKind::Points,
+            Self::EyeToHand => CalibrationKind::EyeToHand,
+            Self::EyeInHand => CalibrationKind::EyeInHand,
+            Self::RobotWorld => CalibrationKind::RobotWorld,
         }
     }
 }
@@ -100,7 +102,7 @@ pub(crate) fn run(arguments: &CalibrateArguments, terminal: Terminal) -> anyhow:
     };
     let kind = arguments
         .kind
-        .map_or_else(|| Kind::of(&set.samples), KindName::kind);
+        .map_or_else(|| CalibrationKind::of(&set.samples), KindName::kind);
     let outcome = calibrate(&set, kind, &options, arguments.seed)
         .map_err(|e| anyhow!("{}: {e}", arguments.samples.display()))?;
     let json = serde_json::to_string_pretty(&outcome.record)? + "\n";
@@ -161,7 +163,7 @@ impl Files {
     }
 
     /// Writes both, or neither.
-    fn write(&self, outcome: &Outcome, report: &str) -> anyhow::Result<()> {
+    fn write(&self, outcome: &Calibration, report: &str) -> anyhow::Result<()> {
         let files = self.folder.stage()?;
         outcome.camera.write(files.file(&self.transform))?;
         files.write_text(&self.report, report)?;
@@ -169,7 +171,7 @@ impl Files {
     }
 }
 
-fn table(record: &Record, terminal: Terminal) -> String {
+fn table(record: &CalibrationRecord, terminal: Terminal) -> String {
     let quality = &record.quality;
     let has_rotation = quality.noise_rotation_rad.is_some();
     let mut text = String::new();
@@ -228,7 +230,7 @@ fn table(record: &Record, terminal: Terminal) -> String {
     text
 }
 
-fn summary(record: &Record, terminal: Terminal) -> String {
+fn summary(record: &CalibrationRecord, terminal: Terminal) -> String {
     let (camera, quality) = (&record.camera, &record.quality);
     let list = |numbers: &[f64], digits: usize| {
         let numbers = numbers.iter().map(|n| format!("{n:.digits$}"));

@@ -4,6 +4,7 @@ use crate::terminal;
 use anyhow::bail;
 use clap::Args;
 use pomona_scenes::{Case, Suite};
+use std::fmt::Write;
 use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
@@ -75,11 +76,14 @@ pub(crate) fn run(arguments: &ScenesArguments) -> anyhow::Result<()> {
 
 /// The suites and their sizes, in columns.
 fn suite_list() -> String {
-    let suites = Suite::ALL.iter();
-    let width = suites.clone().map(|s| s.name().len()).max().unwrap_or(0);
-    suites
-        .map(|s| format!("{:<width$}  {}\n", s.name(), plural(s.len(), "scene")))
-        .collect()
+    let width = Suite::ALL.iter().map(|s| s.name().len()).max().unwrap_or(0);
+    let mut list = String::new();
+    for suite in Suite::ALL {
+        let scenes = plural(suite.len(), "scene");
+        // Writing to a string cannot fail.
+        let _ = writeln!(list, "{:<width$}  {scenes}", suite.name());
+    }
+    list
 }
 
 /// The case with another seed; its name says so, so that draws can stand side by side.

@@ -6,7 +6,7 @@ use std::fs;
 
 /// The layers from the bottom up. A crate may depend on crates of lower layers.
 const LAYERS: &[&[&str]] = &[
-    &["pomona-ransac", "pomona-geometry", "pomona-settings"],
+    &["pomona-ransac", "pomona-geometry", "pomona-settings", "pomona-files"],
     &["pomona-cloud", "pomona-fit", "pomona-transforms"],
     &["pomona-approach", "pomona-calibrate", "pomona-detect"],
     &["pomona", "pomona-scenes", "pomona-view"],

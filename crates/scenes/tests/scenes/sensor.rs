@@ -4,8 +4,6 @@
 //! seeds they hold or do not, and a change of the draws meets them by chance
 //! but once in 16 000.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
-
 use nalgebra::{Point3, Vector3};
 use pomona_cloud::{Camera, DepthImage};
 use pomona_geometry::Plane;

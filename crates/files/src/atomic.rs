@@ -1,20 +1,25 @@
-use crate::CloudError;
+use crate::FileError;
 use std::fs::{self, OpenOptions};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// All bytes of a file.
-pub(crate) fn read_bytes(path: &Path) -> Result<Vec<u8>, CloudError> {
-    fs::read(path).map_err(|source| CloudError::Read {
-        path: path.to_owned(),
-        source,
-    })
+///
+/// # Errors
+///
+/// [`FileError::Read`].
+pub fn read(path: &Path) -> Result<Vec<u8>, FileError> {
+    fs::read(path).map_err(|source| FileError::read(path, source))
 }
 
-/// Writes a whole file under a temporary name beside `path` and renames it,
-/// so that `path` holds either what it held before or all of `bytes`.
-pub(crate) fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), CloudError> {
+/// Writes a file under a temporary name beside `path` and renames it, so that `path` holds either what it held before
+/// or all of `bytes`.
+///
+/// # Errors
+///
+/// [`FileError::Write`]; the temporary file is removed.
+pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
     let temporary = temporary_beside(path);
     let written = OpenOptions::new()
         .write(true)
@@ -26,15 +31,12 @@ pub(crate) fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), CloudErr
         // The first error is the one to report; a leftover that cannot be
         // removed has the same cause.
         let _ = fs::remove_file(&temporary);
-        CloudError::Write {
-            path: path.to_owned(),
-            source,
-        }
+        FileError::write(path, source)
     })
 }
 
-/// A hidden name in the same folder that no other call of any process takes.
-pub(crate) fn temporary_beside(path: &Path) -> PathBuf {
+/// A hidden name in the same folder that no other call in any process returns.
+pub fn temporary_beside(path: &Path) -> PathBuf {
     static CALLS: AtomicU64 = AtomicU64::new(0);
     let call = CALLS.fetch_add(1, Ordering::Relaxed);
     let name = path.file_name().unwrap_or_default().to_string_lossy();
@@ -51,7 +53,7 @@ mod tests {
         let path = dir.path().join("a.txt");
         write_atomically(&path, b"one").unwrap();
         write_atomically(&path, b"two").unwrap();
-        assert_eq!(fs::read(&path).unwrap(), b"two");
+        assert_eq!(read(&path).unwrap(), b"two");
         assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 1);
     }
 
@@ -63,10 +65,20 @@ mod tests {
         fs::write(target.join("inside"), b"").unwrap();
         assert!(matches!(
             write_atomically(&target, b"x"),
-            Err(CloudError::Write { .. })
+            Err(FileError::Write { .. })
         ));
         assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 1);
         let error = write_atomically(&dir.path().join("no/such/file"), b"x").unwrap_err();
         assert!(error.to_string().contains("no/such/file"), "{error}");
+    }
+
+    #[test]
+    fn what_is_missing_is_named_with_the_remedy() {
+        let error = read(Path::new("/nowhere/at/all")).unwrap_err().to_string();
+        assert!(
+            error.starts_with("/nowhere/at/all: cannot be read")
+                && error.ends_with("check the path"),
+            "{error}"
+        );
     }
 }

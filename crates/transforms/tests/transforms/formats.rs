@@ -1,10 +1,5 @@
 //! Forms of other programs: what they print is read, and what we print is what they read.
 
-#![allow(
-    clippy::unwrap_used,
-    reason = "the functions that tests share are tests too"
-)]
-
 use nalgebra::{UnitQuaternion, Vector3};
 use pomona_transforms::formats::{
     FormatError, HandEyeType, StaticTransformForm, from_easy_handeye, from_opencv_yaml,

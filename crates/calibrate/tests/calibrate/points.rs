@@ -1,10 +1,5 @@
 //! Calibration from point pairs.
 
-#![allow(
-    clippy::unwrap_used,
-    reason = "the functions that tests share are tests too"
-)]
-
 use nalgebra::{Point3, UnitQuaternion, Vector3, Vector6};
 use pomona_calibrate::{
     CalibrateError, Options, PointCalibration, PointSample, RejectionCause, calibrate_points,

@@ -1,7 +1,5 @@
 //! What every suite promises of its scenes.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
-
 use nalgebra::{Point3, Vector3};
 use pomona_geometry::Line;
 use pomona_scenes::{Density, Make, Repeat, Scene, Suite};

@@ -2,7 +2,8 @@
 
 use nalgebra::UnitQuaternion;
 use pomona_transforms::{
-    CameraFrame, NamedTransform, RobotFrame, SCHEMA, Transform, TransformError, TransformFileError,
+    CameraFrame, FileError, NamedTransform, RobotFrame, SCHEMA, Transform, TransformContentError,
+    TransformError, TransformFileError,
 };
 use proptest::prelude::*;
 use std::fs;
@@ -27,19 +28,26 @@ fn read(text: &str) -> Result<RobotFromCamera, TransformFileError> {
     RobotFromCamera::read(path)
 }
 
-/// The error of `text`; its message names the file.
-fn refusal(text: &str) -> TransformFileError {
+/// What is wrong with `text`; the message names the file.
+fn refusal(text: &str) -> TransformContentError {
     let error = read(text).expect_err("to be refused");
     assert!(
         error.to_string().contains("robot_from_camera.json: "),
         "{error}"
     );
-    error
+    content(error)
+}
+
+fn content(error: TransformFileError) -> TransformContentError {
+    match error {
+        TransformFileError::Content { source, .. } => source,
+        other => panic!("{other}"),
+    }
 }
 
 fn numbers(text: &str) -> TransformError {
     match refusal(text) {
-        TransformFileError::Numbers { source, .. } => source,
+        TransformContentError::Numbers(source) => source,
         other => panic!("{other}"),
     }
 }
@@ -68,7 +76,10 @@ fn reads_either_form() {
 fn a_missing_file_is_named() {
     let folder = tempfile::tempdir().unwrap();
     let error = RobotFromCamera::read(folder.path().join("none.json")).unwrap_err();
-    assert!(matches!(error, TransformFileError::Read { .. }));
+    assert!(matches!(
+        error,
+        TransformFileError::File(FileError::Read { .. })
+    ));
     let message = error.to_string();
     assert!(
         message.contains("none.json") && message.contains("check the path"),
@@ -80,10 +91,13 @@ fn a_missing_file_is_named() {
 fn what_is_no_json_has_a_place() {
     for text in ["", "translation: 1", "{\"schema\":", "\u{0}", "{} {}"] {
         let error = refusal(text);
-        assert!(matches!(error, TransformFileError::Json { .. }), "{error}");
+        assert!(
+            matches!(error, TransformContentError::Json { .. }),
+            "{error}"
+        );
     }
     match refusal(&replaced(GOOD, "1.3]", "1.3")) {
-        TransformFileError::Json { line, .. } => assert_eq!(line, 6),
+        TransformContentError::Json { line, .. } => assert_eq!(line, 6),
         other => panic!("{other}"),
     }
 }
@@ -109,7 +123,10 @@ fn the_fields_are_those_of_the_schema() {
         ("\"to\"", "\"from\"", "duplicate field `from`"),
     ] {
         let error = refusal(&replaced(GOOD, old, new));
-        assert!(matches!(error, TransformFileError::Json { .. }), "{error}");
+        assert!(
+            matches!(error, TransformContentError::Json { .. }),
+            "{error}"
+        );
         let message = error.to_string();
         assert!(
             message.contains(named) && message.contains("; give schema, to, from"),
@@ -136,7 +153,7 @@ fn another_schema_is_another_file() {
     ] {
         let error = refusal(&text);
         assert!(
-            matches!(error, TransformFileError::Schema { .. }),
+            matches!(error, TransformContentError::Schema { .. }),
             "{error}"
         );
         let message = error.to_string();
@@ -169,7 +186,7 @@ fn one_rotation_and_one_translation() {
             &format!("{extra}\"matrix\""),
         ));
         assert!(
-            matches!(error, TransformFileError::TwoForms { .. }),
+            matches!(error, TransformContentError::TwoForms { .. }),
             "{error}"
         );
         assert!(error.to_string().contains(field), "{error}");
@@ -269,7 +286,7 @@ fn millimetres_are_not_metres() {
     ] {
         let error = refusal(&text);
         assert!(
-            matches!(error, TransformFileError::TooFar { .. }),
+            matches!(error, TransformContentError::TooFar { .. }),
             "{error}"
         );
         let message = error.to_string();
@@ -296,8 +313,8 @@ fn a_write_replaces_and_leaves_nothing_beside() {
         ..named.clone()
     };
     assert!(matches!(
-        nameless.write(&path),
-        Err(TransformFileError::NoFrameId { .. })
+        content(nameless.write(&path).unwrap_err()),
+        TransformContentError::NoFrameId { .. }
     ));
     let far = Transform::from_quaternion([0.0, 300.0, 0.0], [0.0, 0.0, 0.0, 1.0]).unwrap();
     let far = RobotFromCamera {
@@ -305,8 +322,8 @@ fn a_write_replaces_and_leaves_nothing_beside() {
         ..named.clone()
     };
     assert!(matches!(
-        far.write(&path),
-        Err(TransformFileError::TooFar { .. })
+        content(far.write(&path).unwrap_err()),
+        TransformContentError::TooFar { .. }
     ));
     assert_eq!(fs::read_to_string(&path).unwrap(), written);
 
@@ -315,7 +332,7 @@ fn a_write_replaces_and_leaves_nothing_beside() {
     for target in [occupied, folder.path().join("no/such/file")] {
         assert!(matches!(
             named.write(target),
-            Err(TransformFileError::Write { .. })
+            Err(TransformFileError::File(FileError::Write { .. }))
         ));
     }
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2);

@@ -1,10 +1,5 @@
 //! Calibration from pose pairs.
 
-#![allow(
-    clippy::unwrap_used,
-    reason = "the functions that tests share are tests too"
-)]
-
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3, Vector6};
 use pomona_calibrate::{
     CalibrateError, Options, PoseSample, PoseSolver, RejectionCause, calibrate_eye_in_hand,

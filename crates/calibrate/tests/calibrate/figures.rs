@@ -1,11 +1,6 @@
 //! The figures of docs/calibration.md, on fewer of the same trials: limits that a change must not break.
 
-#![allow(
-    clippy::unwrap_used,
-    reason = "the functions that tests share are tests too"
-)]
-
-#[path = "../examples/hand_eye_trials/trials.rs"]
+#[path = "../../examples/hand_eye_trials/trials.rs"]
 mod trials;
 
 use pomona_calibrate::{

@@ -1,8 +1,8 @@
 //! Folders of the TUM RGB-D benchmark: `rgb.txt` and `depth.txt` list images by time.
 
-use super::{Frame, folder_name};
-use crate::error::Fault;
-use crate::{Camera, CloudError, ColorImage, DepthImage, file};
+use crate::frame::{Frame, folder_name};
+use crate::{Camera, CloudError, ColorImage, DepthImage};
+use pomona_files::Malformed;
 use std::path::{Path, PathBuf};
 
 /// Seconds by which a colour and a depth image of one frame may differ: the benchmark's own tools'.
@@ -26,8 +26,7 @@ pub struct TumEntry {
 ///
 /// # Errors
 ///
-/// [`CloudError::Read`] where `rgb.txt` or `depth.txt` is missing, [`CloudError::Malformed`]
-/// for a line in them that is not a time and a file.
+/// [`CloudError::File`] where `rgb.txt` or `depth.txt` is missing, and for a line in them that is not a time and a file.
 pub fn read_tum(dir: impl AsRef<Path>) -> Result<Vec<TumEntry>, CloudError> {
     let dir = dir.as_ref();
     let depths = list(&dir.join("depth.txt"))?;
@@ -80,7 +79,7 @@ impl TumEntry {
 
 /// Times and file names of a list, in order of time.
 fn list(path: &Path) -> Result<Vec<(f64, String)>, CloudError> {
-    let bytes = file::read_bytes(path)?;
+    let bytes = pomona_files::read(path)?;
     let text = String::from_utf8_lossy(&bytes);
     let mut entries = Vec::new();
     for (line, number) in text.lines().zip(1..) {
@@ -96,7 +95,9 @@ fn list(path: &Path) -> Result<Vec<(f64, String)>, CloudError> {
         let (Some(time), Some(name)) = (time, tokens.next()) else {
             let problem = format!("`{line}` is not a time and a file");
             let remedy = "give `seconds file` on each line";
-            return Err(Fault::new(format!("line {number}"), problem, remedy).at(path));
+            return Err(Malformed::new(format!("line {number}"), problem, remedy)
+                .at(path)
+                .into());
         };
         entries.push((time, name.to_owned()));
     }
@@ -107,6 +108,7 @@ fn list(path: &Path) -> Result<Vec<(f64, String)>, CloudError> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use pomona_files::FileError;
     use std::fs;
 
     #[test]
@@ -163,7 +165,10 @@ mod tests {
     #[test]
     fn bad_lists_are_refused_by_line() {
         let dir = tempfile::tempdir().unwrap();
-        assert!(matches!(read_tum(dir.path()), Err(CloudError::Read { .. })));
+        assert!(matches!(
+            read_tum(dir.path()),
+            Err(CloudError::File(FileError::Read { .. }))
+        ));
         fs::write(dir.path().join("depth.txt"), "1.0 a.png\n").unwrap();
         fs::write(dir.path().join("rgb.txt"), "1.0 a.png\nsoon b.png\n").unwrap();
         let error = read_tum(dir.path()).unwrap_err().to_string();

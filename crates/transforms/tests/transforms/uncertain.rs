@@ -1,10 +1,5 @@
 //! Covariances against Monte Carlo: perturb, compute, and compare the spread with the prediction.
 
-#![allow(
-    clippy::unwrap_used,
-    reason = "the functions that tests share are tests too"
-)]
-
 use nalgebra::{Isometry3, Matrix3, Matrix6, Point3, SMatrix, UnitQuaternion, Vector3, Vector6};
 use pomona_transforms::{
     CameraFrame, CovarianceError, Direction, FlangeFrame, NamedTransform, Position, RobotFrame,

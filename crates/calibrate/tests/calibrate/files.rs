@@ -1,10 +1,5 @@
 //! Files of samples: what is read, and what is refused with which message.
 
-#![allow(
-    clippy::unwrap_used,
-    reason = "the functions that tests share are tests too"
-)]
-
 use pomona_calibrate::{SampleSet, Samples};
 use proptest::prelude::*;
 

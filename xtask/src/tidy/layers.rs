@@ -8,7 +8,8 @@ use std::fs;
 const LAYERS: &[&[&str]] = &[
     &["pomona-ransac", "pomona-geometry"],
     &["pomona-cloud", "pomona-fit", "pomona-transforms"],
-    &["pomona-approach", "pomona-calibrate", "pomona-detect"],
+    &["pomona-approach", "pomona-calibrate", "pomona-network"],
+    &["pomona-detect"],
     &["pomona", "pomona-scenes", "pomona-view"],
     &["pomona-evaluate"],
     &["pomona-cli"],
@@ -27,6 +28,16 @@ const FORBIDDEN: &[(&str, &str, &str)] = &[
         "the detector knows no robots",
     ),
     ("pomona-detect", "pomona-fit", "the detector knows no depth"),
+    (
+        "pomona-network",
+        "pomona-fit",
+        "a network knows pixels alone",
+    ),
+    (
+        "pomona-network",
+        "pomona-transforms",
+        "a network knows pixels alone",
+    ),
     ("pomona-view", "pomona-fit", "pictures know no algorithms"),
     (
         "pomona-view",

@@ -414,6 +414,7 @@ fn pixels_are_prepared_as_the_family_or_the_description_says() {
         heads,
         [[128.0 / 255.0; 3], [1.0, 0.2, 0.0], [128.0 / 255.0; 3]],
     );
-    let own = "channels = 'bgr'\npadding = 'stretch'\nwhite = 255\nmean = [0, 1, 5]\ndeviation = [1, 2, 250]";
+    let own =
+        "channels = 'bgr'\npadding = 'stretch'\nscale = 1\nmean = [0, 1, 5]\nstd = [1, 2, 250]";
     near(prepared(&[1, 5, 3549], own), [[0.0, 25.0, 1.0]; 3]);
 }

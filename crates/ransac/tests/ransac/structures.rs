@@ -7,9 +7,7 @@ use pomona_ransac::{
 use proptest::prelude::*;
 use rand_chacha::{ChaCha8Rng, rand_core::SeedableRng};
 
-#[allow(dead_code, reason = "each test file uses a part")]
-mod lines;
-use lines::{Line, Points};
+use crate::lines::{Line, Points};
 
 const NOISE: f64 = 0.004;
 const THRESHOLD: f64 = 0.015;

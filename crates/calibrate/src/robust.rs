@@ -1,4 +1,4 @@
-//! Weights that fall with the residual, and what they do to the covariance.
+//! Robust weights, and their effect on the covariance.
 
 /// Degrees of freedom of the noise model: a Student t instead of a Gaussian, whose heavier tails
 /// keep a sample that is somewhat off from pulling the answer.
@@ -44,7 +44,7 @@ impl<const D: usize> StudentT<D> {
         weighted_squares / (components * (n - used).max(1.0) * Self::SQUARED_SCALE)
     }
 
-    /// The squared residual beyond which a sample is no longer believed.
+    /// The squared residual beyond which a sample is an outlier.
     pub(crate) fn gate() -> f64 {
         if D == 3 { GATE_3 } else { GATE_6 }
     }

@@ -9,17 +9,17 @@ use crate::robust::{MEDIAN_NORM_OF_3, StudentT, median};
 use nalgebra::{Matrix3, Matrix3x6, Matrix6, Vector3};
 use pomona_transforms::twist;
 
-/// The least noise that is believed, m.
+/// Lower bound of the estimated noise, m.
 const FLOOR_M: f64 = 1e-6;
 
-/// Six unknowns are the price of two samples.
+/// Samples whose degrees of freedom the six unknowns use up.
 const USED: f64 = 2.0;
 
 const MAX_ROUNDS: usize = 50;
 
 type Loss = StudentT<3>;
 
-/// A model with all that was learnt beside it.
+/// A model with its noise, weights and covariance.
 pub(super) struct Fit {
     pub(super) model: Similarity,
     /// Standard deviation of one component.
@@ -73,7 +73,7 @@ pub(super) fn refine(pairs: &PointPairs, inliers: &[usize], start: &Similarity) 
             break;
         }
     }
-    // Once more with the samples that were kept last, so that the report belongs to the model.
+    // Once more with the final inliers, so that the report belongs to the model.
     let r = residuals(&model);
     let last: Vec<f64> = kept
         .iter()

@@ -10,10 +10,10 @@ const MAX_STEPS: usize = 50;
 const MAX_ROUNDS: usize = 30;
 const MAX_DAMPING: f64 = 1e10;
 
-/// Twelve unknowns are the price of two samples.
+/// Samples whose degrees of freedom the twelve unknowns use up.
 const USED: f64 = 2.0;
 
-/// The least noise that is believed, so that samples without any do not make each other outliers.
+/// Lower bound of the estimated noise, so that exact samples do not make each other outliers.
 const FLOOR: Scale = Scale {
     rotation_rad: 1e-5,
     translation_m: 1e-6,
@@ -70,7 +70,7 @@ pub(crate) fn least_squares(
     model.is_finite().then_some(model)
 }
 
-/// A model with all that was learnt beside it.
+/// A model with its noise, weights and covariance.
 #[derive(Clone, Debug)]
 pub(crate) struct Fit {
     pub(crate) model: HandEyeModel,
@@ -120,7 +120,7 @@ pub(crate) fn robust(pairs: &[Pair], inliers: &[usize], start: &HandEyeModel) ->
             break;
         }
     }
-    // Once more with the samples that were kept last, so that the report belongs to the model.
+    // Once more with the final inliers, so that the report belongs to the model.
     let squared: Vec<f64> = pairs
         .iter()
         .map(|p| model.offset(p).squared(&noise))

@@ -1,7 +1,7 @@
 //! `cargo xtask ci`: everything that a change must pass.
 
 use crate::{
-    regress, standalone, tidy,
+    docs, regress, standalone, tidy,
     workspace::{Package, Workspace, cargo},
 };
 use anyhow::{Context, Result, bail, ensure};
@@ -31,11 +31,11 @@ enum Action {
 const FEATURE_TESTS: [(&str, &str); 3] = [
     (
         "pomona-cli",
-        "clippy --package pomona --package pomona-cli --features mcap --all-targets -- -D warnings",
+        "clippy --package pomona-messages --package pomona-cli --features mcap --all-targets -- -D warnings",
     ),
     (
-        "pomona",
-        "test --package pomona --features mcap --test recording",
+        "pomona-messages",
+        "test --package pomona-messages --features mcap --test messages recording",
     ),
     (
         "pomona-cli",
@@ -88,8 +88,12 @@ fn steps(workspace: &Workspace) -> Vec<Step> {
     steps.push(Step::own("standalone", "standalone", || {
         standalone::run(&standalone::Args::default())
     }));
-    steps.push(Step::own("regress", "regress", || {
-        regress::run(&regress::Args::default())
+    // Both run the program as the tests have built it.
+    steps.push(Step::own("regress", "regress --build tested", || {
+        regress::run(&regress::Args::TESTED)
+    }));
+    steps.push(Step::own("docs", "docs --check --build tested", || {
+        docs::run(&docs::Args::CHECK)
     }));
     steps
 }
@@ -191,12 +195,13 @@ mod tests {
             "RUSTDOCFLAGS=\"-D warnings\" cargo doc --workspace --no-deps"
         );
         assert_eq!(lines[5], "cargo xtask standalone");
-        assert_eq!(lines[6], "cargo xtask regress");
+        assert_eq!(lines[6], "cargo xtask regress --build tested");
+        assert_eq!(lines[7], "cargo xtask docs --check --build tested");
     }
 
     #[test]
     fn tests_of_features_run_where_their_package_is() {
-        let metadata = r#"{"name": "pomona", "manifest_path": "/x/Cargo.toml", "dependencies": [],
+        let metadata = r#"{"name": "pomona-messages", "manifest_path": "/x/Cargo.toml", "dependencies": [],
             "targets": [], "features": {}}"#;
         let workspace = Workspace::of(vec![serde_json::from_str(metadata).unwrap()]);
         let lines: Vec<String> = steps(&workspace)
@@ -209,7 +214,7 @@ mod tests {
             .unwrap();
         assert_eq!(
             lines[after + 1],
-            "cargo test --package pomona --features mcap --test recording"
+            "cargo test --package pomona-messages --features mcap --test messages recording"
         );
         assert!(!lines.iter().any(|l| l.contains("pomona-cli")));
     }

@@ -6,7 +6,7 @@
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use nalgebra::{Point3, Vector3};
-use pomona_approach::{ApproachConfig, Planner, PlanningScene, StartPose, Target, pick_order};
+use pomona_approach::{ApproachConfig, Planner, ObstacleMap, StartPose, Target, pick_order};
 use pomona_geometry::{Capsule, Segment, Sphere};
 use pomona_transforms::Direction;
 use rand::{RngExt, SeedableRng};
@@ -81,9 +81,9 @@ impl Orchard {
         }
     }
 
-    fn scene(&self, planner: &Planner) -> PlanningScene {
+    fn scene(&self, planner: &Planner) -> ObstacleMap {
         let (apples, branches) = (self.apples.clone(), self.branches.clone());
-        PlanningScene::new(apples, branches, &self.cloud, &planner.config().clearance)
+        ObstacleMap::new(apples, branches, &self.cloud, &planner.config().clearance)
     }
 }
 
@@ -93,7 +93,7 @@ const ROUNDS: usize = 200;
 /// The least times of planning each target, in ascending order.
 fn least_times(
     planner: &Planner,
-    scene: &PlanningScene,
+    scene: &ObstacleMap,
     targets: &[Target],
     start: &StartPose,
 ) -> Vec<f64> {

@@ -3,7 +3,7 @@
 use crate::obstacles::{Hit, ObstacleFilter};
 use crate::straight_motion::StraightMotion;
 use crate::transit::{self, OpenGripper};
-use crate::{Clearance, ClearanceConfig, Gripper, Path, PlanningScene, Stage};
+use crate::{Clearance, ClearanceConfig, Gripper, Path, ObstacleMap, Stage};
 
 /// Looks for collisions of one gripper.
 #[derive(Clone, Copy, Debug)]
@@ -11,7 +11,7 @@ pub(crate) struct CollisionCheck<'a> {
     pub(crate) gripper: &'a Gripper,
     pub(crate) open: &'a OpenGripper,
     pub(crate) config: &'a ClearanceConfig,
-    pub(crate) scene: &'a PlanningScene,
+    pub(crate) scene: &'a ObstacleMap,
 }
 
 impl CollisionCheck<'_> {

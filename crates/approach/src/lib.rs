@@ -2,7 +2,7 @@
 //!
 //! ```
 //! use nalgebra::{Point3, Vector3};
-//! use pomona_approach::{ApproachConfig, Planner, PlanningScene, StartPose, Target, pick_order};
+//! use pomona_approach::{ApproachConfig, Planner, ObstacleMap, StartPose, Target, pick_order};
 //! use pomona_geometry::{Capsule, Segment, Sphere};
 //! use pomona_transforms::Direction;
 //!
@@ -13,7 +13,7 @@
 //! let upwards = Direction::new(Vector3::z()).unwrap();
 //!
 //! let planner = Planner::new(ApproachConfig::default())?;
-//! let scene = PlanningScene::new(vec![apple], vec![branch], &[], &planner.config().clearance);
+//! let scene = ObstacleMap::new(vec![apple], vec![branch], &[], &planner.config().clearance);
 //! let mut target = Target::new(0, upwards);
 //! target.branch = Some(Vector3::y());
 //! let start = StartPose::looking_along_x(Point3::new(0.3, 0.0, 0.4));
@@ -45,7 +45,7 @@
 //!   [`Quintic`]s that agree in position, velocity and acceleration where they meet. The source
 //!   says that its path is a polynomial, and gives neither degree nor coefficients; five is the
 //!   least degree that takes all three at both ends.
-//! - A [`PlanningScene`] holds the obstacles: apples, branches of the extent that was seen, and the
+//! - A [`ObstacleMap`] holds the obstacles: apples, branches of the extent that was seen, and the
 //!   points of the cloud that neither explains. [`Clearance`] is the signed distance of the
 //!   gripper from the nearest of these along the whole path, not at samples of it: between
 //!   samples it is bounded by the speed of the gripper's fastest point, and the straight stages are
@@ -87,7 +87,7 @@ mod outdated;
 mod outline;
 mod path;
 mod planner;
-mod planning_scene;
+mod obstacle_map;
 mod point_tree;
 mod pose;
 mod quintic;
@@ -108,7 +108,7 @@ pub use gripper::Gripper;
 pub use order::{Order, Rank, Reason, pick_order};
 pub use path::{Path, Piece, Sample};
 pub use planner::Planner;
-pub use planning_scene::PlanningScene;
+pub use obstacle_map::ObstacleMap;
 pub use point_tree::PointTree;
 pub use pose::tool_rotation;
 pub use quintic::{Quintic, State};

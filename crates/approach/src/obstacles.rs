@@ -3,7 +3,7 @@
 use crate::point_tree::PointTree;
 use crate::shape::Shape;
 use crate::swept_volume::SweptVolume;
-use crate::{ClearanceConfig, Obstacle, PlanningScene};
+use crate::{ClearanceConfig, Obstacle, ObstacleMap};
 use nalgebra::{Point3, Vector3};
 use pomona_geometry::Sphere;
 
@@ -55,7 +55,7 @@ impl ObstacleFilter<'_> {
     }
 }
 
-impl PlanningScene {
+impl ObstacleMap {
     /// The obstacle with the least slack where that is under `bound`.
     pub(crate) fn nearest(
         &self,

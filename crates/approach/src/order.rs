@@ -1,4 +1,4 @@
-use crate::{Approach, Planner, PlanningScene, Refusal, StartPose, Target};
+use crate::{Approach, Planner, ObstacleMap, Refusal, StartPose, Target};
 
 /// Why a target has its rank.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -57,7 +57,7 @@ pub struct Order {
 /// blockers goes next as [`Reason::CycleBroken`].
 pub fn pick_order(
     planner: &Planner,
-    scene: &PlanningScene,
+    scene: &ObstacleMap,
     targets: &[Target],
     start: &StartPose,
 ) -> Order {
@@ -78,7 +78,7 @@ pub fn pick_order(
 /// target that stays refused is in the way of the others for good.
 fn plan_without_blockers(
     planner: &Planner,
-    scene: &PlanningScene,
+    scene: &ObstacleMap,
     targets: &[Target],
     start: &StartPose,
     blocked: &[usize],
@@ -114,7 +114,7 @@ fn plan_without_blockers(
 /// For each target, the indices of those that its approach touches.
 fn blockers(
     planner: &Planner,
-    scene: &PlanningScene,
+    scene: &ObstacleMap,
     blocked: &[usize],
     approaches: &[Result<Approach, Refusal>],
 ) -> Vec<Vec<usize>> {
@@ -137,7 +137,7 @@ fn blockers(
 
 fn rank(
     planner: &Planner,
-    scene: &PlanningScene,
+    scene: &ObstacleMap,
     targets: &[Target],
     approaches: &mut [Result<Approach, Refusal>],
     blockers: &[Vec<usize>],
@@ -190,7 +190,7 @@ fn rank(
 /// that slack becomes its clearance.
 fn least_blocked(
     planner: &Planner,
-    scene: &PlanningScene,
+    scene: &ObstacleMap,
     approaches: &mut [Result<Approach, Refusal>],
     blockers: &[Vec<usize>],
     waiting: &[usize],

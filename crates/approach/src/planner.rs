@@ -5,7 +5,7 @@ use crate::pose::{aligned, nearer_half_turn, tool_rotation};
 use crate::straight_motion::StraightMotion;
 use crate::transit::OpenGripper;
 use crate::{
-    Approach, ApproachConfig, Clearance, ConfigError, PlanningScene, Refusal, Roll, StartPose,
+    Approach, ApproachConfig, Clearance, ConfigError, ObstacleMap, Refusal, Roll, StartPose,
     Target,
 };
 use nalgebra::{Unit, UnitQuaternion, Vector3};
@@ -49,7 +49,7 @@ impl Planner {
     /// Where there is none, the [`Refusal`] of the first approach tried.
     pub fn plan(
         &self,
-        scene: &PlanningScene,
+        scene: &ObstacleMap,
         target: &Target,
         start: &StartPose,
     ) -> Result<Approach, Refusal> {
@@ -63,7 +63,7 @@ impl Planner {
     /// As for [`Planner::plan`].
     pub fn plan_without(
         &self,
-        scene: &PlanningScene,
+        scene: &ObstacleMap,
         target: &Target,
         start: &StartPose,
         gone: &[bool],
@@ -112,7 +112,7 @@ impl Planner {
     /// where it does not.
     pub(crate) fn touches(
         &self,
-        scene: &PlanningScene,
+        scene: &ObstacleMap,
         approach: &Approach,
         other: usize,
     ) -> Option<Clearance> {
@@ -136,7 +136,7 @@ impl Planner {
         check.clearance(&filter, &straight, &approach.path).err()
     }
 
-    fn check<'a>(&'a self, scene: &'a PlanningScene) -> CollisionCheck<'a> {
+    fn check<'a>(&'a self, scene: &'a ObstacleMap) -> CollisionCheck<'a> {
         CollisionCheck {
             gripper: &self.config.gripper,
             open: &self.open,

@@ -5,7 +5,7 @@ use crate::obstacles::{Hit, ObstacleFilter};
 use crate::outline::{Outline, PlacedOutline};
 use crate::shape::Shape;
 use crate::swept_volume::SweptVolume;
-use crate::{ClearanceConfig, Path, PlanningScene, Stage};
+use crate::{ClearanceConfig, Path, ObstacleMap, Stage};
 use nalgebra::{Isometry3, Vector3};
 use pomona_geometry::Sphere;
 
@@ -46,7 +46,7 @@ impl StraightMotion {
     /// The hit with the least slack where that is negative.
     pub(crate) fn clearance(
         &self,
-        scene: &PlanningScene,
+        scene: &ObstacleMap,
         filter: &ObstacleFilter<'_>,
         config: &ClearanceConfig,
     ) -> Result<Option<(Hit, Stage)>, (Hit, Stage)> {

@@ -4,7 +4,7 @@ use crate::obstacles::{Hit, ObstacleFilter};
 use crate::outline::{Outline, PlacedOutline};
 use crate::shape::Shape;
 use crate::swept_volume::SweptVolume;
-use crate::{ClearanceConfig, Gripper, Path, PlanningScene, Stage};
+use crate::{ClearanceConfig, Gripper, Path, ObstacleMap, Stage};
 
 /// Intervals of a piece over which its speed is bounded by one number.
 const INTERVALS: usize = 12;
@@ -42,7 +42,7 @@ pub(crate) fn nearest(
     path: &Path,
     intervals: &[Interval],
     open: &OpenGripper,
-    scene: &PlanningScene,
+    scene: &ObstacleMap,
     filter: &ObstacleFilter<'_>,
     config: &ClearanceConfig,
 ) -> Result<Option<TimedHit>, TimedHit> {

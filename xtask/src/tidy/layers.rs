@@ -1,6 +1,6 @@
 //! Arrows between the crates point down only.
 
-use super::{Finding, key_at};
+use super::finding::{Finding, key_at};
 use crate::workspace::{Dependency, Package, Workspace};
 use std::fs;
 
@@ -10,6 +10,7 @@ const LAYERS: &[&[&str]] = &[
     &["pomona-cloud", "pomona-fit", "pomona-transforms"],
     &["pomona-approach", "pomona-calibrate", "pomona-detect"],
     &["pomona", "pomona-scenes", "pomona-view"],
+    &["pomona-fusion", "pomona-messages"],
     &["pomona-evaluate"],
     &["pomona-cli"],
 ];

@@ -154,7 +154,7 @@ fn the_reported_clearance_is_that_of_the_path() {
         world.leaves.clear();
         let (apples, branches) = (world.apples.clone(), world.branches.clone());
         world.seen =
-            pomona_approach::PlanningScene::new(apples, branches, &[], &config().clearance);
+            pomona_approach::ObstacleMap::new(apples, branches, &[], &config().clearance);
         let Ok(approach) = planner.plan(&world.seen, &world.targets[0], &world.start) else {
             continue;
         };

@@ -1,7 +1,7 @@
 //! Time of planning an apple, of ordering a frame, and of building a frame's scene.
 //!
-//! Lines `accuracy NAME TEXT` on standard output say how many of the apples were free, lines `apple NAME TEXT` the time of
-//! planning one apple: the least of many rounds for each, which another program's work does not lengthen; and
+//! Lines `accuracy NAME TEXT` on standard output say how many of the apples were free, lines `apple NAME TEXT` the time
+//! of planning one apple: the least of many rounds for each, which another program's work does not lengthen; and
 //! their mean, median and largest. With the argument `--test` they are all that is measured.
 
 use criterion::{Criterion, criterion_group, criterion_main};

@@ -30,8 +30,9 @@
 //!   the flange: [`calibrate_eye_to_hand`], [`calibrate_robot_world`]. The camera is on the flange and the
 //!   target stands still: [`calibrate_eye_in_hand`].
 //! - A [`SampleSet`] is a file of samples, JSON or CSV, keyed by id.
-//! - The answer is an [`UncertainTransform`](pomona_transforms::UncertainTransform) with a 6×6 covariance, and a [`Quality`]: residual and
-//!   weight of every sample, rejected ones with the reason, and the leave-one-out error at the fruit's distance.
+//! - The answer is an [`UncertainTransform`](pomona_transforms::UncertainTransform) with a 6×6 covariance, and a
+//!   [`Quality`]: residual and weight of every sample, rejected ones with the reason, and the leave-one-out error at
+//!   the fruit's distance.
 //! - A [`CalibrateError`] refuses samples that do not determine the answer, and names the likely cause.
 //!
 //! # How

@@ -23,8 +23,8 @@ pub(crate) struct StudentT<const D: usize>;
 
 impl<const D: usize> StudentT<D> {
     /// The squared scale of the Student t that fits Gaussian noise of variance 1 best: the c for which
-    /// `E[w s²] = D c` over χ² with `D` degrees of freedom, found by quadrature. With it, residuals here are in standard
-    /// deviations of Gaussian noise.
+    /// `E[w s²] = D c` over χ² with `D` degrees of freedom, found by quadrature. With it, residuals here are in
+    /// standard deviations of Gaussian noise.
     const SQUARED_SCALE: f64 = if D == 3 { 0.8618 } else { 0.8842 };
 
     /// Weight of a sample whose squared residual is `squared`.

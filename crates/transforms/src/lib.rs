@@ -44,7 +44,8 @@
 //!   what is known in the camera's frame into the robot's. A position takes its rotation and its
 //!   translation, a direction the rotation only. Transforms compose where the inner frames
 //!   agree; anything else does not compile.
-//! - A [`NamedTransform`] adds the frame ids that a camera and a robot have at run time, and is what `robot_from_camera.json` holds.
+//! - A [`NamedTransform`] adds the frame ids that a camera and a robot have at run time, and is what
+//!   `robot_from_camera.json` holds.
 //! - A [`ToolOrientation`] turns a tool that points along +x into a direction, as a quaternion
 //!   and as [`EulerZyx`] angles; along ±z, where one angle has no value of its own, it says so. A
 //!   [`ToolModel`] says which axis of the tool approaches, and where the tool is on the flange.

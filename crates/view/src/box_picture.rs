@@ -42,8 +42,8 @@ pub struct BoxMark {
 
 /// The image with the boxes drawn over it, later ones over earlier ones.
 ///
-/// A caption stands above its box, or below where there is no room; captions that would cover an earlier one are left out.
-/// A box that cannot be shown is left out too. Widths follow the picture's height.
+/// A caption stands above its box, or below where there is no room; captions that would cover an earlier one are left
+/// out. A box that cannot be shown is left out too. Widths follow the picture's height.
 ///
 /// ```
 /// use pomona_cloud::{ColorImage, PixelBox};

@@ -68,8 +68,8 @@ impl CocoDataset {
     /// # Errors
     ///
     /// [`CloudError::File`], also for an image without `file_name`, one that is
-    /// given twice, and an annotation of an image that is not listed; [`CloudError::Box`] for a box that is inverted, not
-    /// finite, or outside an image whose size is given.
+    /// given twice, and an annotation of an image that is not listed; [`CloudError::Box`] for a box that is inverted,
+    /// not finite, or outside an image whose size is given.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, CloudError> {
         let path = path.as_ref();
         let bytes = pomona_files::read(path)?;

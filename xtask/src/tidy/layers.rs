@@ -15,6 +15,7 @@ const LAYERS: &[&[&str]] = &[
     ],
     &["pomona-approach", "pomona-calibrate", "pomona-detect"],
     &["pomona", "pomona-scenes", "pomona-view"],
+    &["pomona-fusion", "pomona-messages"],
     &["pomona-evaluate", "pomona-labels"],
     &["pomona-cli"],
 ];

@@ -12,7 +12,6 @@ pub(super) const CRATES_WITH_CIRCLES: &[&str] = &[
     "pomona-approach",
     "pomona-cli",
     "pomona-detect",
-    "pomona-evaluate",
     "pomona-fit",
     "pomona-ransac",
 ];

@@ -6,7 +6,7 @@
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use nalgebra::{Point3, Vector3};
-use pomona_approach::{ApproachConfig, Planner, ObstacleMap, StartPose, Target, pick_order};
+use pomona_approach::{ApproachConfig, ObstacleMap, Planner, StartPose, Target, pick_order};
 use pomona_geometry::{Capsule, Segment, Sphere};
 use pomona_transforms::Direction;
 use rand::{RngExt, SeedableRng};

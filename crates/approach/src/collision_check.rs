@@ -3,7 +3,7 @@
 use crate::obstacles::{Hit, ObstacleFilter};
 use crate::straight_motion::StraightMotion;
 use crate::transit::{self, OpenGripper};
-use crate::{Clearance, ClearanceConfig, Gripper, Path, ObstacleMap, Stage};
+use crate::{Clearance, ClearanceConfig, Gripper, ObstacleMap, Path, Stage};
 
 /// Looks for collisions of one gripper.
 #[derive(Clone, Copy, Debug)]

@@ -1,4 +1,4 @@
-use crate::{Approach, Planner, ObstacleMap, Refusal, StartPose, Target};
+use crate::{Approach, ObstacleMap, Planner, Refusal, StartPose, Target};
 
 /// Why a target has its rank.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -5,8 +5,7 @@ use crate::pose::{aligned, nearer_half_turn, tool_rotation};
 use crate::straight_motion::StraightMotion;
 use crate::transit::OpenGripper;
 use crate::{
-    Approach, ApproachConfig, Clearance, ConfigError, ObstacleMap, Refusal, Roll, StartPose,
-    Target,
+    Approach, ApproachConfig, Clearance, ConfigError, ObstacleMap, Refusal, Roll, StartPose, Target,
 };
 use nalgebra::{Unit, UnitQuaternion, Vector3};
 use pomona_geometry::{Sphere, across};

@@ -5,7 +5,7 @@ use crate::obstacles::{Hit, ObstacleFilter};
 use crate::outline::{Outline, PlacedOutline};
 use crate::shape::Shape;
 use crate::swept_volume::SweptVolume;
-use crate::{ClearanceConfig, Path, ObstacleMap, Stage};
+use crate::{ClearanceConfig, ObstacleMap, Path, Stage};
 use nalgebra::{Isometry3, Vector3};
 use pomona_geometry::Sphere;
 

@@ -4,7 +4,7 @@ use crate::obstacles::{Hit, ObstacleFilter};
 use crate::outline::{Outline, PlacedOutline};
 use crate::shape::Shape;
 use crate::swept_volume::SweptVolume;
-use crate::{ClearanceConfig, Gripper, Path, ObstacleMap, Stage};
+use crate::{ClearanceConfig, Gripper, ObstacleMap, Path, Stage};
 
 /// Intervals of a piece over which its speed is bounded by one number.
 const INTERVALS: usize = 12;

@@ -68,13 +68,3 @@ impl<const D: usize> StudentT<D> {
         spread / (curvature * curvature)
     }
 }
-
-/// Median of numbers; NaN where there are none.
-pub(crate) fn median(mut numbers: Vec<f64>) -> f64 {
-    if numbers.is_empty() {
-        return f64::NAN;
-    }
-    numbers.sort_by(f64::total_cmp);
-    let n = numbers.len();
-    f64::midpoint(numbers[(n - 1) / 2], numbers[n / 2])
-}

@@ -4,7 +4,7 @@ use crate::{
 };
 use nalgebra::{Isometry3, Point3, Quaternion, Translation3, UnitQuaternion, Vector3};
 use pomona_approach::{
-    ApproachConfig, ConfigError, Order, Planner, ObstacleMap, Refusal, StartPose, Target,
+    ApproachConfig, ConfigError, ObstacleMap, Order, Planner, Refusal, StartPose, Target,
     pick_order,
 };
 use pomona_cloud::{DepthPoints, Frame, PixelWindow};

@@ -1,7 +1,7 @@
 //! Scenes whose truth is known, and what a planner sees of them.
 
 use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
-use pomona_approach::{ApproachConfig, Planner, ObstacleMap, StartPose, Target};
+use pomona_approach::{ApproachConfig, ObstacleMap, Planner, StartPose, Target};
 use pomona_geometry::{Capsule, Segment, Sphere};
 use pomona_transforms::Direction;
 use rand::{RngExt, SeedableRng};

@@ -5,8 +5,9 @@ use super::search::LEAST_POINTS;
 use super::similarity::Similarity;
 use crate::Options;
 use crate::quality::{LeftOut, shift_at};
-use crate::robust::{MEDIAN_NORM_OF_3, StudentT, median};
+use crate::robust::{MEDIAN_NORM_OF_3, StudentT};
 use nalgebra::{Matrix3, Matrix3x6, Matrix6, Vector3};
+use pomona_statistics::median;
 use pomona_transforms::twist;
 
 /// Lower bound of the estimated noise, m.
@@ -43,7 +44,8 @@ pub(super) fn refine(pairs: &PointPairs, inliers: &[usize], start: &Similarity) 
     let mut model = *start;
     let mut kept: Vec<usize> = inliers.to_vec();
     let of_inliers = residuals(&model);
-    let middle = median(kept.iter().map(|&i| of_inliers[i]).collect());
+    let mut of_kept: Vec<f64> = kept.iter().map(|&i| of_inliers[i]).collect();
+    let middle = median(&mut of_kept)?;
     let mut sigma_m = (middle / MEDIAN_NORM_OF_3).max(FLOOR_M);
     for _ in 0..MAX_ROUNDS {
         let r = residuals(&model);

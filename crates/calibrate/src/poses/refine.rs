@@ -1,7 +1,8 @@
 //! Joint refinement of both unknowns on SE(3) × SE(3).
 
 use super::system::{HandEyeModel, Matrix12, Offset, Pair, Scale, normal_equations};
-use crate::robust::{MEDIAN_NORM_OF_3, StudentT, median};
+use crate::robust::{MEDIAN_NORM_OF_3, StudentT};
+use pomona_statistics::median;
 
 /// Three poses determine the unknowns; a fourth tells whether one of them is wrong.
 pub(crate) const LEAST_POSES: usize = 4;
@@ -98,7 +99,7 @@ impl Fit {
 pub(crate) fn robust(pairs: &[Pair], inliers: &[usize], start: &HandEyeModel) -> Option<Fit> {
     let mut model = *start;
     let mut kept: Vec<bool> = (0..pairs.len()).map(|i| inliers.contains(&i)).collect();
-    let mut noise = first_noise(pairs, &kept, &model);
+    let mut noise = first_noise(pairs, &kept, &model)?;
     for _ in 0..MAX_ROUNDS {
         let squared: Vec<f64> = pairs
             .iter()
@@ -162,15 +163,16 @@ fn close(a: &Scale, b: &Scale) -> bool {
 }
 
 /// The noise by medians, before anything is weighted.
-fn first_noise(pairs: &[Pair], kept: &[bool], model: &HandEyeModel) -> Scale {
+fn first_noise(pairs: &[Pair], kept: &[bool], model: &HandEyeModel) -> Option<Scale> {
     let size = |part: fn(&Offset) -> f64| {
         let offsets = pairs.iter().zip(kept).filter(|(_, k)| **k);
-        median(offsets.map(|(p, _)| part(&model.offset(p))).collect()) / MEDIAN_NORM_OF_3
+        let mut sizes: Vec<f64> = offsets.map(|(p, _)| part(&model.offset(p))).collect();
+        Some(median(&mut sizes)? / MEDIAN_NORM_OF_3)
     };
-    Scale {
-        rotation_rad: size(|o| o.rotation.norm()).max(FLOOR.rotation_rad),
-        translation_m: size(|o| o.translation.norm()).max(FLOOR.translation_m),
-    }
+    Some(Scale {
+        rotation_rad: size(|o| o.rotation.norm())?.max(FLOOR.rotation_rad),
+        translation_m: size(|o| o.translation.norm())?.max(FLOOR.translation_m),
+    })
 }
 
 /// The noise by weighted squares.

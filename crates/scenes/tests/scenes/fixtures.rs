@@ -9,7 +9,11 @@ use serde_json::Value;
 use std::path::{Path, PathBuf};
 
 /// Whether this is the platform that wrote the fixtures.
-const IS_REFERENCE: bool = cfg!(all(target_os = "linux", target_env = "gnu", target_arch = "x86_64"));
+const IS_REFERENCE: bool = cfg!(all(
+    target_os = "linux",
+    target_env = "gnu",
+    target_arch = "x86_64"
+));
 
 /// Largest difference of two numbers of a truth, in metres or without a unit.
 const TOLERANCE: f64 = if IS_REFERENCE { 0.0 } else { 1e-9 };

@@ -10,6 +10,7 @@ const LAYERS: &[&[&str]] = &[
     &["pomona-cloud", "pomona-fit", "pomona-transforms"],
     &["pomona-approach", "pomona-calibrate", "pomona-detect"],
     &["pomona", "pomona-scenes", "pomona-view"],
+    &["pomona-fusion", "pomona-messages"],
     &["pomona-evaluate"],
     &["pomona-cli"],
 ];

@@ -14,7 +14,6 @@ pub(super) const CRATES_WITH_CIRCLES: &[&str] = &[
     "pomona-cli",
     "pomona-cloud",
     "pomona-detect",
-    "pomona-evaluate",
     "pomona-fit",
     "pomona-ransac",
     "pomona-scenes",

@@ -1,8 +1,8 @@
-//! One apple: from the readings of its box to its body.
+//! One apple: from the readings of its box to its spheroid.
 
 use super::blocks::{Area, Blocks};
-use super::body::{Body, BodyFit, BodyPrior, Course, Sightings, fit_body};
-use super::contour::{agreement, grazing_rays};
+use super::spheroid::{Spheroid, SpheroidFit, SpheroidPrior, FitSchedule, SurfaceObservations, fit_spheroid};
+use super::silhouette::{agreement, silhouette_rays};
 use super::sphere::{BoxRays, candidates, support};
 use crate::config::{FruitConfig, RobustConfig};
 use crate::optics::{DepthNoise, DepthPatch, Projection, depth_jump_m};
@@ -30,10 +30,10 @@ const JUMP_SIGMAS: f64 = 6.0;
 /// A fitted apple, and how well it was seen.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SeenApple {
-    pub(crate) fit: BodyFit,
+    pub(crate) fit: SpheroidFit,
     /// Share of its outline's area on which its surface shows.
     pub(crate) visible_share: f64,
-    /// How well the body agrees with points, outline and box; 1 is perfect.
+    /// How well the spheroid agrees with points, outline and box; 1 is perfect.
     pub(crate) agreement: f64,
 }
 
@@ -98,11 +98,11 @@ impl AppleSearch<'_> {
             .best_sphere(&spheres, &bounds, threshold, buffers)
             .ok_or(Status::NoSphere)?;
         let fit = self.flattened(sphere, buffers).ok_or(Status::NoSphere)?;
-        let radius = fit.body.radius;
+        let radius = fit.spheroid.radius;
         if !self.fruit.fitted().contains(radius) {
             return Err(Status::ImplausibleRadius);
         }
-        let outline = (radius / self.pixel(&fit.body)).powi(2) * std::f64::consts::PI;
+        let outline = (radius / self.pixel(&fit.spheroid)).powi(2) * std::f64::consts::PI;
         Ok(SeenApple {
             fit,
             visible_share: (fit.weight * (side * side) as f64 / outline).min(1.0),
@@ -135,13 +135,13 @@ impl AppleSearch<'_> {
         (share * self.noise.correlation_px).min(1.0)
     }
 
-    /// Metres of a pixel at the body's depth.
-    fn pixel(&self, body: &Body) -> f64 {
-        self.projection.pixel_m(body.center.z)
+    /// Metres of a pixel at the spheroid's depth.
+    fn pixel(&self, spheroid: &Spheroid) -> f64 {
+        self.projection.pixel_m(spheroid.center.z)
     }
 
     /// What is believed of the apple: of its radius by the smaller side of the box, where boxes are trusted so far.
-    fn prior(&self, blocks: &Blocks) -> BodyPrior {
+    fn prior(&self, blocks: &Blocks) -> SpheroidPrior {
         let config = self.config;
         let mean = config.radius_mean_m.unwrap_or(self.fruit.prior_mean());
         let radius = if config.box_radius_sd_m > 0.0 {
@@ -160,7 +160,7 @@ impl AppleSearch<'_> {
             let sd = config.radius_sd_m.unwrap_or(self.fruit.prior_sd());
             (mean, sd)
         };
-        BodyPrior {
+        SpheroidPrior {
             radius,
             flattening: (self.config.flattening_mean, self.config.flattening_sd),
             axis: up(),
@@ -169,29 +169,29 @@ impl AppleSearch<'_> {
         }
     }
 
-    /// Looks for the outline about `body`, and fits to it and to the points.
+    /// Looks for the outline about `spheroid`, and fits to it and to the points.
     fn refit(
         &self,
-        body: Body,
-        prior: &BodyPrior,
-        course: &Course<'_>,
+        spheroid: Spheroid,
+        prior: &SpheroidPrior,
+        schedule: &FitSchedule<'_>,
         buffers: &mut AppleBuffers,
-    ) -> Option<BodyFit> {
-        let sigma = self.noise.sigma(body.center.z);
-        grazing_rays(
+    ) -> Option<SpheroidFit> {
+        let sigma = self.noise.sigma(spheroid.center.z);
+        silhouette_rays(
             &buffers.patch,
             self.projection,
-            &body,
+            &spheroid,
             sigma,
             &mut buffers.rays,
         );
-        let sightings = Sightings {
+        let observations = SurfaceObservations {
             points: &buffers.points,
             rays: &buffers.rays,
-            ray_sd: self.config.contour_sd_px * self.pixel(&body),
+            ray_sd: self.config.contour_sd_px * self.pixel(&spheroid),
             noise: self.noise,
         };
-        fit_body(&sightings, body, prior, course)
+        fit_spheroid(&observations, spheroid, prior, schedule)
     }
 
     /// Of the spheres, each refined a little, the one that agrees best with points, outline and box.
@@ -201,45 +201,45 @@ impl AppleSearch<'_> {
         bounds: &BoxRays,
         threshold: f64,
         buffers: &mut AppleBuffers,
-    ) -> Option<(f64, Body)> {
+    ) -> Option<(f64, Spheroid)> {
         let config = self.config;
         let tried = self.fruit.hypotheses();
-        let prior = BodyPrior {
+        let prior = SpheroidPrior {
             shape_sd: ROUND_SD_M,
             ..self.prior(&buffers.blocks)
         };
-        let course = |cuts| Course {
+        let schedule = |cuts| FitSchedule {
             cuts,
-            keep_shape: true,
-            settled: false,
+            fix_shape: true,
+            reject_outlying_rays: false,
         };
-        let mut best: Option<(f64, Body)> = None;
+        let mut best: Option<(f64, Spheroid)> = None;
         for sphere in spheres {
-            let body = Body::round(sphere, up());
+            let spheroid = Spheroid::round(sphere, up());
             let refined = self
-                .refit(body, &prior, &course(&[5.0, 3.5]), buffers)
-                .and_then(|first| self.refit(first.body, &prior, &course(&[3.0, 3.0]), buffers));
-            let Some(body) = refined.map(|fit| fit.body) else {
+                .refit(spheroid, &prior, &schedule(&[5.0, 3.5]), buffers)
+                .and_then(|first| self.refit(first.spheroid, &prior, &schedule(&[3.0, 3.0]), buffers));
+            let Some(spheroid) = refined.map(|fit| fit.spheroid) else {
                 continue;
             };
-            if !tried.contains(body.radius) {
+            if !tried.contains(spheroid.radius) {
                 continue;
             }
-            let outline = agreement(&buffers.rays, &body, 2.5 * self.pixel(&body));
-            let score = support(&buffers.blocks, &body.sphere(), threshold)
-                - config.box_weight * bounds.disagreement(&body.sphere())
+            let outline = agreement(&buffers.rays, &spheroid, 2.5 * self.pixel(&spheroid));
+            let score = support(&buffers.blocks, &spheroid.sphere(), threshold)
+                - config.box_weight * bounds.disagreement(&spheroid.sphere())
                 + OUTLINE_WEIGHT * outline;
             if best.is_none_or(|(other, _)| score > other) {
-                best = Some((score, body));
+                best = Some((score, spheroid));
             }
         }
         best
     }
 
-    /// The flattened body from a sphere.
-    fn flattened(&self, sphere: Body, buffers: &mut AppleBuffers) -> Option<BodyFit> {
+    /// The flattened spheroid from a sphere.
+    fn flattened(&self, sphere: Spheroid, buffers: &mut AppleBuffers) -> Option<SpheroidFit> {
         let flattening = self.config.flattening_mean;
-        let start = Body {
+        let start = Spheroid {
             radius: sphere.radius * (1.0 + 0.3 * flattening),
             flattening,
             // Leant a little towards the camera: straight up, the fit would not know which way to turn it.
@@ -247,18 +247,18 @@ impl AppleSearch<'_> {
             ..sphere
         };
         let prior = self.prior(&buffers.blocks);
-        let course = |cuts, settled| Course {
+        let schedule = |cuts, reject_outlying_rays| FitSchedule {
             cuts,
-            keep_shape: false,
-            settled,
+            fix_shape: false,
+            reject_outlying_rays,
         };
         let first = self.refit(
             start,
             &prior,
-            &course(&[5.0, 4.0, 3.5, 3.0], false),
+            &schedule(&[5.0, 4.0, 3.5, 3.0], false),
             buffers,
         )?;
-        self.refit(first.body, &prior, &course(&[3.0; 4], true), buffers)
+        self.refit(first.spheroid, &prior, &schedule(&[3.0; 4], true), buffers)
     }
 }
 

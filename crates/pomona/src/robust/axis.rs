@@ -1,10 +1,10 @@
-use super::body::biweight;
+use super::spheroid::biweight;
 use nalgebra::{Matrix3, Point3, Unit, Vector3};
 use pomona_geometry::Line;
 
-/// A curved axis: a line, and parabolas across it sideways in the image and in depth.
+/// A curved axis: a line, and parabolas across it lateral in the image and in depth.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Axis {
+pub(crate) struct BranchAxis {
     /// Point of the line from which lengths along it are measured.
     pub(crate) base: Point3<f64>,
     /// Unit direction of the line.
@@ -13,10 +13,10 @@ pub(crate) struct Axis {
     pub(crate) side: Vector3<f64>,
     /// Unit vector across the line, away from the camera.
     deep: Vector3<f64>,
-    /// Coefficients of 1, s, s² of the way sideways.
-    pub(crate) sideways: Vector3<f64>,
+    /// Coefficients of 1, s, s² of the way lateral.
+    pub(crate) lateral: Vector3<f64>,
     /// Coefficients of 1, s, s² of the way in depth.
-    pub(crate) depthways: Vector3<f64>,
+    pub(crate) depth_offset: Vector3<f64>,
     /// Radius of the branch.
     pub(crate) radius: f64,
 }
@@ -26,7 +26,7 @@ pub(crate) fn powers(s: f64) -> Vector3<f64> {
     Vector3::new(1.0, s, s * s)
 }
 
-impl Axis {
+impl BranchAxis {
     /// A straight axis about the foot of `center` on `line`; `None` where the line points at the camera.
     pub(crate) fn straight(line: &Line, center: &Point3<f64>, radius: f64) -> Option<Self> {
         let base = line.foot(center);
@@ -43,8 +43,8 @@ impl Axis {
             along,
             side,
             deep,
-            sideways: Vector3::zeros(),
-            depthways: Vector3::zeros(),
+            lateral: Vector3::zeros(),
+            depth_offset: Vector3::zeros(),
             radius,
         })
     }
@@ -53,16 +53,16 @@ impl Axis {
         let p = powers(s);
         self.base
             + self.along * s
-            + self.side * self.sideways.dot(&p)
-            + self.deep * self.depthways.dot(&p)
+            + self.side * self.lateral.dot(&p)
+            + self.deep * self.depth_offset.dot(&p)
     }
 
     pub(crate) fn tangent(&self, s: f64) -> Unit<Vector3<f64>> {
         let slope = Vector3::new(0.0, 1.0, 2.0 * s);
         Unit::new_normalize(
             self.along
-                + self.side * self.sideways.dot(&slope)
-                + self.deep * self.depthways.dot(&slope),
+                + self.side * self.lateral.dot(&slope)
+                + self.deep * self.depth_offset.dot(&slope),
         )
     }
 
@@ -180,9 +180,9 @@ mod tests {
     fn the_nearest_place_has_its_tangent_across() {
         let line = Line::new(Point3::new(0.05, 0.0, 0.9), Vector3::new(0.2, 1.0, 0.4)).unwrap();
         let center = Point3::new(0.0, 0.01, 0.9);
-        let mut axis = Axis::straight(&line, &center, 0.005).unwrap();
-        axis.sideways[2] = 0.3;
-        axis.depthways[1] = 0.1;
+        let mut axis = BranchAxis::straight(&line, &center, 0.005).unwrap();
+        axis.lateral[2] = 0.3;
+        axis.depth_offset[1] = 0.1;
         let s = axis.nearest(&center, 0.1);
         assert!(
             (center - axis.at(s))

@@ -1,24 +1,24 @@
 //! The branch: lines looked at closely, refined and ranked.
 
-use super::axis::{Axis, Parabola, Sample, powers};
-use super::lines::{Reach, guesses};
+use super::axis::{BranchAxis, Parabola, Sample, powers};
+use super::line_hypothesis::{DistanceRange, line_hypotheses};
 use super::shell::Shell;
 use super::strips::{StripRules, strips};
-use super::walk::{Pace, Slice, walk};
+use super::cross_section::{SectionSpacing, CrossSection, cross_sections};
 use crate::config::RobustConfig;
 use crate::optics::{Projection, depth_jump_m};
 use nalgebra::{Point3, Unit, Vector3};
 use pomona_geometry::Sphere;
 
-/// What a walk along an axis found, as lengths in metres.
+/// What a cross_sections along an axis found, as lengths in metres.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Tally {
+pub(crate) struct AxisSupport {
     /// Shows, as wide as the whole and at its place.
-    pub(crate) shown: f64,
+    pub(crate) visible: f64,
     /// Of that, on the side of the foot on which less shows.
-    pub(crate) shown_lesser_side: f64,
+    pub(crate) visible_shorter_side: f64,
     /// Something else of its depth shows.
-    pub(crate) odd: f64,
+    pub(crate) atypical: f64,
     /// Nothing is there.
     pub(crate) empty: f64,
     /// Something nearer hides it.
@@ -27,25 +27,25 @@ pub(crate) struct Tally {
     pub(crate) pixels: usize,
 }
 
-impl Tally {
+impl AxisSupport {
     /// What candidates are ranked by. What is not there counts most against a candidate, then what is not like
     /// a branch; what is hidden hardly counts.
     fn score(&self) -> f64 {
-        self.shown + self.shown_lesser_side - 1.4 * self.empty - 0.8 * self.odd - 0.1 * self.hidden
+        self.visible + self.visible_shorter_side - 1.4 * self.empty - 0.8 * self.atypical - 0.1 * self.hidden
     }
 }
 
 /// A branch candidate after refinement.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Candidate {
-    pub(crate) axis: Axis,
+    pub(crate) axis: BranchAxis,
     /// Point of the axis nearest to the apple's centre.
     pub(crate) foot: Point3<f64>,
     pub(crate) tangent: Unit<Vector3<f64>>,
     /// Of the foot from the centre.
     pub(crate) distance: f64,
-    pub(crate) tally: Tally,
-    /// The tally's score as a share of the length looked at.
+    pub(crate) support: AxisSupport,
+    /// The support's score as a share of the length looked at.
     pub(crate) score: f64,
     /// Standard deviation of the foot across the axis, metres.
     pub(crate) foot_sd: f64,
@@ -65,7 +65,7 @@ pub(crate) struct Search<'a> {
 }
 
 /// One look: how far apart places are, and by how much depths may differ.
-struct Round {
+struct RefinementPass {
     step: f64,
     tolerance: f64,
     growth: f64,
@@ -73,32 +73,32 @@ struct Round {
 }
 
 /// Coarse looks at many lines, then fine ones at few.
-const ROUNDS: [Round; 5] = [
-    Round {
+const PASSES: [RefinementPass; 5] = [
+    RefinementPass {
         step: 0.004,
         tolerance: 0.004,
         growth: 0.10,
         kept: 14,
     },
-    Round {
+    RefinementPass {
         step: 0.004,
         tolerance: 0.002,
         growth: 0.06,
         kept: 8,
     },
-    Round {
+    RefinementPass {
         step: 0.003,
         tolerance: 0.001,
         growth: 0.03,
         kept: 4,
     },
-    Round {
+    RefinementPass {
         step: 0.003,
         tolerance: 0.001,
         growth: 0.02,
         kept: 4,
     },
-    Round {
+    RefinementPass {
         step: 0.002,
         tolerance: 0.001,
         growth: 0.02,
@@ -108,7 +108,7 @@ const ROUNDS: [Round; 5] = [
 
 impl Search<'_> {
     /// The branches about the apple, best first.
-    pub(crate) fn candidates(&self, slices: &mut Vec<(f64, Slice)>) -> Vec<Candidate> {
+    pub(crate) fn candidates(&self, sections: &mut Vec<(f64, CrossSection)>) -> Vec<Candidate> {
         let (r, config) = (self.apple.radius, self.config);
         let rules = StripRules {
             width_max: 2.3 * config.branch_radius_max_m,
@@ -123,22 +123,22 @@ impl Search<'_> {
         pieces.retain(|s| widths.contains(&s.half_width) && off(&s.middle) < 3.3 * r);
         pieces.sort_by(|a, b| off(&a.middle).total_cmp(&off(&b.middle)));
         pieces.truncate(MOST_STRIPS);
-        let reach: Reach = (0.8 * config.branch_near * r, 1.2 * config.branch_far * r);
-        let guesses = guesses(&pieces, &self.apple.center, reach, config.branch_guesses);
-        let axes = guesses.iter().filter_map(|guess| {
-            let mut axis = Axis::straight(&guess.line, &self.apple.center, guess.half_width)?;
+        let reach: DistanceRange = (0.8 * config.branch_near * r, 1.2 * config.branch_far * r);
+        let line_hypotheses = line_hypotheses(&pieces, &self.apple.center, reach, config.branch_guesses);
+        let axes = line_hypotheses.iter().filter_map(|hypothesis| {
+            let mut axis = BranchAxis::straight(&hypothesis.line, &self.apple.center, hypothesis.half_width)?;
             // Strips lie on the surface: the axis is half a thickness behind, on average over the width.
-            axis.depthways[0] = std::f64::consts::FRAC_PI_4 * guess.half_width;
+            axis.depth_offset[0] = std::f64::consts::FRAC_PI_4 * hypothesis.half_width;
             Some(axis)
         });
-        let mut axes: Vec<Axis> = axes.collect();
+        let mut axes: Vec<BranchAxis> = axes.collect();
         let mut ranked = Vec::new();
-        for round in &ROUNDS {
+        for pass in &PASSES {
             ranked = axes
                 .iter()
-                .filter_map(|axis| self.refine(*axis, round, slices))
+                .filter_map(|axis| self.refine(*axis, pass, sections))
                 .collect();
-            keep_best(&mut ranked, round.kept);
+            keep_best(&mut ranked, pass.kept);
             axes = ranked.iter().map(|c: &Candidate| c.axis).collect();
         }
         ranked
@@ -150,78 +150,78 @@ impl Search<'_> {
     pub(crate) fn pixels(
         &self,
         candidate: &Candidate,
-        slices: &mut Vec<(f64, Slice)>,
+        sections: &mut Vec<(f64, CrossSection)>,
         pixels: &mut Vec<u32>,
     ) {
-        let pace = self.pace(&candidate.axis, &ROUNDS[ROUNDS.len() - 1]);
-        walk(
+        let spacing = self.spacing(&candidate.axis, &PASSES[PASSES.len() - 1]);
+        cross_sections(
             self.shell,
             self.projection,
             &candidate.axis,
-            &pace,
-            slices,
+            &spacing,
+            sections,
             Some(pixels),
         );
         pixels.sort_unstable();
         pixels.dedup();
     }
 
-    fn pace(&self, axis: &Axis, round: &Round) -> Pace {
-        Pace {
+    fn spacing(&self, axis: &BranchAxis, pass: &RefinementPass) -> SectionSpacing {
+        SectionSpacing {
             reach: self.config.branch_reach * self.apple.radius,
-            step: round.step,
-            tolerance: round.tolerance + 3.0 * self.sigma + 0.4 * axis.radius,
-            growth: round.growth,
+            step: pass.step,
+            tolerance: pass.tolerance + 3.0 * self.sigma + 0.4 * axis.radius,
+            growth: pass.growth,
         }
     }
 
     /// Walks along an axis, moves it to what shows, and counts what speaks for it.
     fn refine(
         &self,
-        mut axis: Axis,
-        round: &Round,
-        slices: &mut Vec<(f64, Slice)>,
+        mut axis: BranchAxis,
+        pass: &RefinementPass,
+        sections: &mut Vec<(f64, CrossSection)>,
     ) -> Option<Candidate> {
         let r = self.apple.radius;
-        let pace = self.pace(&axis, round);
-        walk(self.shell, self.projection, &axis, &pace, slices, None);
+        let spacing = self.spacing(&axis, pass);
+        cross_sections(self.shell, self.projection, &axis, &spacing, sections, None);
         let pixel = self.projection.pixel_m(axis.base.z);
-        let moved = self.fit(&mut axis, slices, pixel)?;
+        let moved = self.fit(&mut axis, sections, pixel)?;
         let radii = self.config.branch_radius_min_m..=self.config.branch_radius_max_m;
         if !radii.contains(&axis.radius) {
             return None;
         }
         let s = axis.nearest(&self.apple.center, 1.5 * r);
-        let tally = self.count(&axis, &moved, slices, round.step, s, pixel);
+        let support = self.count(&axis, &moved, sections, pass.step, s, pixel);
         let foot = axis.at(s);
         Some(Candidate {
             axis,
             foot,
             tangent: axis.tangent(s),
             distance: (foot - self.apple.center).norm(),
-            tally,
-            score: tally.score() / (2.0 * pace.reach),
+            support,
+            score: support.score() / (2.0 * spacing.reach),
             foot_sd: moved.side.sd_at(s).hypot(moved.deep.sd_at(s)),
             rms: moved.deep.rms,
         })
     }
 
-    /// Scale of the depths of slices about the axis.
+    /// Scale of the depths of sections about the axis.
     fn deep_scale(&self) -> f64 {
         0.4 * self.sigma + 0.0005
     }
 
-    /// Moves the axis to the middle of the slices, and its radius to half of their width.
-    fn fit(&self, axis: &mut Axis, slices: &[(f64, Slice)], pixel: f64) -> Option<Moved> {
+    /// Moves the axis to the middle of the sections, and its radius to half of their width.
+    fn fit(&self, axis: &mut BranchAxis, sections: &[(f64, CrossSection)], pixel: f64) -> Option<Moved> {
         const FIRST_CUTS: [f64; 4] = [20.0, 8.0, 3.0, 3.0];
-        let cuts = |slices: &'_ [(f64, Slice)]| {
-            let cuts = slices.iter().filter_map(|(s, slice)| match slice {
-                Slice::Thing(cut) => Some((*s, *cut)),
+        let cuts = |sections: &'_ [(f64, CrossSection)]| {
+            let cuts = sections.iter().filter_map(|(s, section)| match section {
+                CrossSection::Object(cut) => Some((*s, *cut)),
                 _ => None,
             });
             cuts.collect::<Vec<_>>()
         };
-        let cuts = cuts(slices);
+        let cuts = cuts(sections);
         let whole = cuts.iter().filter(|(_, cut)| cut.own == (true, true));
         let mut widths: Vec<f64> = whole.map(|(_, cut)| cut.width()).collect();
         // Where too little shows with both ends, the width that it was thought to have counts as well.
@@ -260,35 +260,35 @@ impl Search<'_> {
         let bend = self.config.branch_bend_sd_per_m;
         let deep = Parabola::fit(&deep, bend, self.deep_scale(), &FIRST_CUTS)?;
         let side = Parabola::fit(&side, bend, 0.4 * pixel + 0.0003, &FIRST_CUTS)?;
-        axis.sideways += side.coefficients;
-        axis.depthways += deep.coefficients;
+        axis.lateral += side.coefficients;
+        axis.depth_offset += deep.coefficients;
         Some(Moved { side, deep })
     }
 
     fn count(
         &self,
-        axis: &Axis,
+        axis: &BranchAxis,
         moved: &Moved,
-        slices: &[(f64, Slice)],
+        sections: &[(f64, CrossSection)],
         step: f64,
         foot: f64,
         pixel: f64,
-    ) -> Tally {
-        let mut tally = Tally::default();
+    ) -> AxisSupport {
+        let mut support = AxisSupport::default();
         let width = 2.0 * axis.radius;
         let (mut before, mut after) = (0.0, 0.0);
-        for (s, slice) in slices {
-            let cut = match slice {
-                Slice::Thing(cut) => cut,
-                Slice::Hidden => {
-                    tally.hidden += step;
+        for (s, section) in sections {
+            let cut = match section {
+                CrossSection::Object(cut) => cut,
+                CrossSection::Hidden => {
+                    support.hidden += step;
                     continue;
                 }
-                Slice::Empty => {
-                    tally.empty += step / (1.0 + (s / (EMPTY_NEAR * self.apple.radius)).powi(4));
+                CrossSection::Empty => {
+                    support.empty += step / (1.0 + (s / (EMPTY_NEAR * self.apple.radius)).powi(4));
                     continue;
                 }
-                Slice::Outside => continue,
+                CrossSection::Outside => continue,
             };
             let p = powers(*s);
             let aside = moved.side.coefficients.dot(&p);
@@ -314,15 +314,15 @@ impl Search<'_> {
                 0.0
             };
             if share > 0.0 {
-                tally.pixels += cut.pixels;
+                support.pixels += cut.pixels;
                 *(if *s < foot { &mut before } else { &mut after }) += share * step;
             } else {
-                tally.odd += step;
+                support.atypical += step;
             }
         }
-        tally.shown = before + after;
-        tally.shown_lesser_side = f64::min(before, after);
-        tally
+        support.visible = before + after;
+        support.visible_shorter_side = f64::min(before, after);
+        support
     }
 }
 

@@ -17,19 +17,19 @@ pub(crate) fn confidence(found: &SeenApple, ranked: &[Candidate]) -> f64 {
     let Some(best) = ranked.first() else {
         return 0.0;
     };
-    let r = found.fit.body.radius;
-    let tally = &best.tally;
-    let looked = (tally.shown + tally.odd + tally.empty + tally.hidden).max(1e-6);
+    let r = found.fit.spheroid.radius;
+    let support = &best.support;
+    let looked = (support.visible + support.atypical + support.empty + support.hidden).max(1e-6);
     let features = [
         1.0,
         best.score.clamp(-1.0, 1.2),
-        (tally.shown / r).min(2.0),
-        (tally.shown_lesser_side / r).min(0.5),
+        (support.visible / r).min(2.0),
+        (support.visible_shorter_side / r).min(0.5),
         margin(found, ranked).clamp(0.0, 1.5),
         found.agreement.min(0.8),
         found.visible_share.min(0.7),
-        tally.odd / looked,
-        tally.empty / looked,
+        support.atypical / looked,
+        support.empty / looked,
     ];
     let sum: f64 = features.iter().zip(MODEL).map(|(f, m)| f * m).sum();
     1.0 / (1.0 + (-sum).exp())
@@ -38,7 +38,7 @@ pub(crate) fn confidence(found: &SeenApple, ranked: &[Candidate]) -> f64 {
 /// By how much the best candidate's score is above that of the next one whose direction differs by over 12 degrees.
 fn margin(found: &SeenApple, ranked: &[Candidate]) -> f64 {
     const ALIKE_RAD: f64 = 0.21;
-    let center = found.fit.body.center;
+    let center = found.fit.spheroid.center;
     let Some(best) = ranked.first() else {
         return 0.0;
     };
@@ -64,14 +64,14 @@ pub(crate) fn refusal(found: &SeenApple, ranked: &[Candidate]) -> Status {
     let Some(best) = ranked.first() else {
         return without_candidate(found);
     };
-    let tally = &best.tally;
-    let looked = tally.shown + tally.odd + tally.empty + tally.hidden;
+    let support = &best.support;
+    let looked = support.visible + support.atypical + support.empty + support.hidden;
     let rivals = ranked.len() > 1 && margin(found, ranked) < 0.1;
     if rivals && best.score > -0.3 {
         Status::AmbiguousBranch
-    } else if tally.hidden > 0.5 * looked {
+    } else if support.hidden > 0.5 * looked {
         Status::Occluded
-    } else if tally.odd > tally.shown && tally.odd > tally.empty {
+    } else if support.atypical > support.visible && support.atypical > support.empty {
         Status::LeafLike
     } else {
         Status::NoBranch

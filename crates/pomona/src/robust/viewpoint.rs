@@ -22,7 +22,7 @@ const STRIDE: usize = 5;
 /// up and down.
 ///
 /// `None` for an apple at the camera.
-pub(crate) fn clearest(shell: &Shell, apple: &Sphere) -> Option<Direction<CameraFrame>> {
+pub(crate) fn least_occluded_direction(shell: &Shell, apple: &Sphere) -> Option<Direction<CameraFrame>> {
     let back = (-apple.center.coords).try_normalize(1e-9)?;
     let right = Vector3::y().cross(&back).try_normalize(1e-9)?;
     let down = back.cross(&right);

@@ -6,23 +6,23 @@ use pomona_geometry::Line;
 
 /// A line that may be a branch's axis, before it is looked at closely.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Guess {
+pub(crate) struct LineHypothesis {
     pub(crate) line: Line,
     pub(crate) half_width: f64,
     pub(crate) support: f64,
 }
 
 /// Bounds on the distance of a line from the apple's centre, metres.
-pub(crate) type Reach = (f64, f64);
+pub(crate) type DistanceRange = (f64, f64);
 
 /// The best supported lines through one strip or two, each unlike the ones before it.
-pub(crate) fn guesses(
+pub(crate) fn line_hypotheses(
     strips: &[Strip],
     center: &Point3<f64>,
-    reach: Reach,
+    reach: DistanceRange,
     most: usize,
-) -> Vec<Guess> {
-    let mut found: Vec<Guess> = Vec::new();
+) -> Vec<LineHypothesis> {
+    let mut found: Vec<LineHypothesis> = Vec::new();
     let mut consider = |point: Point3<f64>, direction: Vector3<f64>, half_width: f64| {
         let Some(line) = Line::new(point, direction) else {
             return;
@@ -45,7 +45,7 @@ pub(crate) fn guesses(
         }
         // Wide things are less often branches than narrow ones.
         support /= 1.0 + (half_width / 0.012).powi(2);
-        found.push(Guess {
+        found.push(LineHypothesis {
             line,
             half_width,
             support,
@@ -70,15 +70,15 @@ pub(crate) fn guesses(
         }
     }
     found.sort_by(|a, b| b.support.total_cmp(&a.support));
-    let mut kept: Vec<Guess> = Vec::new();
-    for guess in found {
-        let alike = |k: &Guess| {
-            k.line.direction.dot(&guess.line.direction).abs() > 0.98
-                && (k.line.foot(center) - guess.line.foot(center)).norm()
+    let mut kept: Vec<LineHypothesis> = Vec::new();
+    for hypothesis in found {
+        let alike = |k: &LineHypothesis| {
+            k.line.direction.dot(&hypothesis.line.direction).abs() > 0.98
+                && (k.line.foot(center) - hypothesis.line.foot(center)).norm()
                     < 0.004 + 0.5 * k.half_width
         };
         if !kept.iter().any(alike) {
-            kept.push(guess);
+            kept.push(hypothesis);
             if kept.len() == most {
                 break;
             }

@@ -3,15 +3,15 @@
 //! Where a branch is, it shows with an end on either side, or something nearer hides it. Where the readings lie
 //! behind the axis, or are none, there is no branch: a leaf that looks like one ends within its own length.
 
-use super::axis::Axis;
+use super::axis::BranchAxis;
 use super::shell::{APPLE, NOTHING, Shell};
 use crate::optics::Projection;
 
 /// What the pixels across the axis show at one place.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Slice {
+pub(crate) enum CrossSection {
     /// Something at the axis' depth.
-    Thing(Cut),
+    Object(ObjectSection),
     /// Something nearer, or an apple.
     Hidden,
     /// Readings behind the axis, or none.
@@ -22,7 +22,7 @@ pub(crate) enum Slice {
 
 /// A thing cut across, in metres from the axis.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Cut {
+pub(crate) struct ObjectSection {
     /// Its two ends.
     pub(crate) ends: (f64, f64),
     /// Whether each is its own: with something farther or nothing beyond.
@@ -33,7 +33,7 @@ pub(crate) struct Cut {
     pub(crate) pixels: usize,
 }
 
-impl Cut {
+impl ObjectSection {
     /// Its width.
     pub(crate) fn width(&self) -> f64 {
         self.ends.1 - self.ends.0
@@ -50,9 +50,9 @@ impl Cut {
     }
 }
 
-/// How to walk.
+/// How to cross_sections.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Pace {
+pub(crate) struct SectionSpacing {
     /// To either side of the base, metres.
     pub(crate) reach: f64,
     /// From one place to the next, metres.
@@ -63,25 +63,25 @@ pub(crate) struct Pace {
     pub(crate) growth: f64,
 }
 
-/// The slices along an axis with their places; the indices of the pixels of things are added to `pixels`.
-pub(crate) fn walk(
+/// The sections along an axis with their places; the indices of the pixels of things are added to `pixels`.
+pub(crate) fn cross_sections(
     shell: &Shell,
     projection: &Projection<'_>,
-    axis: &Axis,
-    pace: &Pace,
-    out: &mut Vec<(f64, Slice)>,
+    axis: &BranchAxis,
+    spacing: &SectionSpacing,
+    out: &mut Vec<(f64, CrossSection)>,
     mut pixels: Option<&mut Vec<u32>>,
 ) {
     out.clear();
-    let n = (pace.reach / pace.step) as i32;
+    let n = (spacing.reach / spacing.step) as i32;
     for k in -n..=n {
-        let s = f64::from(k) * pace.step;
-        let tolerance = pace.tolerance + pace.growth * s.abs();
-        let slice = match Across::new(shell, projection, axis, s, tolerance) {
-            Some(across) => across.slice(pixels.as_deref_mut()),
-            None => Slice::Outside,
+        let s = f64::from(k) * spacing.step;
+        let tolerance = spacing.tolerance + spacing.growth * s.abs();
+        let section = match Across::new(shell, projection, axis, s, tolerance) {
+            Some(across) => across.section(pixels.as_deref_mut()),
+            None => CrossSection::Outside,
         };
-        out.push((s, slice));
+        out.push((s, section));
     }
 }
 
@@ -122,7 +122,7 @@ impl<'a> Across<'a> {
     fn new(
         shell: &'a Shell,
         projection: &Projection<'_>,
-        axis: &Axis,
+        axis: &BranchAxis,
         s: f64,
         tolerance: f64,
     ) -> Option<Self> {
@@ -191,9 +191,9 @@ impl<'a> Across<'a> {
         (mark, off)
     }
 
-    fn slice(&self, pixels: Option<&mut Vec<u32>>) -> Slice {
+    fn section(&self, pixels: Option<&mut Vec<u32>>) -> CrossSection {
         if self.mark(0).0 == Mark::Outside {
-            return Slice::Outside;
+            return CrossSection::Outside;
         }
         let search = ((0.8 * self.radius * self.scale) as i32).max(1) + 1;
         let seed = (0..=search)
@@ -228,9 +228,9 @@ impl<'a> Across<'a> {
             pixels.extend(on.filter_map(index));
         }
         let Some(off) = sum.mean() else {
-            return Slice::Empty;
+            return CrossSection::Empty;
         };
-        Slice::Thing(Cut {
+        CrossSection::Object(ObjectSection {
             ends: (
                 (f64::from(left) - 0.5) / self.scale,
                 (f64::from(right) + 0.5) / self.scale,
@@ -259,15 +259,15 @@ impl<'a> Across<'a> {
     }
 
     /// What most of the middle shows where nothing lies at the axis' depth.
-    fn without_thing(&self) -> Slice {
+    fn without_thing(&self) -> CrossSection {
         let half = ((0.5 * self.radius * self.scale) as i32).max(1);
         let hidden = (-half..=half)
             .filter(|&k| matches!(self.mark(k).0, Mark::Near | Mark::Apple))
             .count() as i32;
         if hidden > half {
-            Slice::Hidden
+            CrossSection::Hidden
         } else {
-            Slice::Empty
+            CrossSection::Empty
         }
     }
 }

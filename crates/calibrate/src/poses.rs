@@ -12,6 +12,7 @@ pub use estimator::PoseSolver;
 pub use motions::MotionSpread;
 
 use crate::quality::{LeaveOneOut, LeftOut, Quality, SampleQuality, rejection, shift_at, spread};
+use crate::robust::MAX_DRAWS;
 use crate::{CalibrateError, Options, PoseSample};
 use estimator::PosePairs;
 use nalgebra::{Isometry3, Matrix6};
@@ -194,7 +195,7 @@ fn search<R: Rng + ?Sized>(
     let needed = LEAST_POSES.max(pairs.len() / 2 + 1);
     let engine = Ransac::new(Msac::within(1.0))
         .local_optimization(LeastSquares::default())
-        .stopping(FixedCount::new(u64::from(options.hypotheses)).max_draws(20_000));
+        .stopping(FixedCount::new(u64::from(options.hypotheses)).max_draws(MAX_DRAWS));
     let mut best: Option<(f64, PoseSolver, HandEyeModel, Vec<usize>)> = None;
     for &solver in solvers {
         let estimator = PosePairs {

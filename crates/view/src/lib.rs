@@ -1,5 +1,5 @@
-//! Pictures of picks: marks over the colour image, coloured clouds, and
-//! pictures of clouds for those who have no viewer at hand.
+//! Pictures of picks: marks drawn over the colour image, coloured clouds, and rendered
+//! pictures of clouds for those without a viewer at hand.
 //!
 //! ```
 //! use nalgebra::Point3;
@@ -27,12 +27,12 @@
 //!
 //! # Concepts
 //!
-//! An [`AppleMark`] is what is known of one apple: a box, and perhaps the
+//! An [`AppleMark`] holds what is known of one apple: a box, and perhaps the
 //! pixels of its surface and branch, its sphere, its picking direction, a
 //! gripper's path and the gripper at the apple, a caption, a reason of refusal. [`Overlay`] draws marks over the image;
 //! colours are those of the paper ([`palette`]). A picking direction along
-//! the line of sight has no length in the picture and is drawn as a physicist
-//! would: ⊙ comes towards the camera, ⊗ goes away from it.
+//! the line of sight has no length in the picture and is drawn as in physics:
+//! ⊙ points towards the camera, ⊗ away from it.
 //!
 //! [`draw_boxes`] draws nothing but boxes, each a [`BoxMark`], and [`picture_sheet`] sets such pictures side by side.
 //!
@@ -44,7 +44,7 @@
 //! as [`pomona_cloud::Camera`] does; a box spans whole pixels,
 //! `x_min <= x < x_max`. Lengths are metres, angles radians. The same input
 //! gives the same picture. Input that cannot be shown is left out of the
-//! picture; only an image or view that is none is a [`ViewError`].
+//! picture; only an invalid image or viewpoint is a [`ViewError`].
 //!
 //! # Not here
 //!

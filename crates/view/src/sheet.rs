@@ -13,7 +13,7 @@ pub struct SheetPicture {
     pub image: ColorImage,
     /// Boxes drawn over it, in its pixels.
     pub marks: Vec<BoxMark>,
-    /// What stands below it.
+    /// The text below it.
     pub caption: String,
 }
 
@@ -23,7 +23,7 @@ pub struct SheetPicture {
 ///
 /// # Errors
 ///
-/// [`ViewError`] for an image that is none, and for a sheet without pictures, columns or side.
+/// [`ViewError`] for an invalid image, and for a sheet without pictures, columns or side.
 pub fn picture_sheet(
     pictures: &[SheetPicture],
     columns: usize,

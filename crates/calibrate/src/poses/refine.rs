@@ -9,7 +9,21 @@ pub(crate) const LEAST_POSES: usize = 4;
 
 const MAX_STEPS: usize = 50;
 const MAX_ROUNDS: usize = 30;
+/// Factor on the diagonal of the normal matrix: at the start, its bounds, and the factors by which it falls and rises.
+const FIRST_DAMPING: f64 = 1e-9;
+const MIN_DAMPING: f64 = 1e-12;
 const MAX_DAMPING: f64 = 1e10;
+const DAMPING_FALL: f64 = 0.1;
+const DAMPING_RISE: f64 = 10.0;
+
+/// Predicted relative decrease of the objective at which the steps end.
+const CONVERGED_STEP: f64 = 1e-14;
+
+/// Relative change of the noise at which the rounds end.
+const CONVERGED_NOISE: f64 = 1e-6;
+
+/// Components of each part of an offset, rotation and translation.
+const COMPONENTS: f64 = 3.0;
 
 /// Samples whose degrees of freedom the twelve unknowns use up.
 const USED: f64 = 2.0;
@@ -34,7 +48,7 @@ pub(crate) fn least_squares(
 ) -> Option<HandEyeModel> {
     let mut model = *start;
     let (mut normal, mut descent, mut objective) = normal_equations(pairs, weights, &model, scale);
-    let mut damping = 1e-9;
+    let mut damping = FIRST_DAMPING;
     for _ in 0..MAX_STEPS {
         if !objective.is_finite() {
             return None;
@@ -50,9 +64,10 @@ pub(crate) fn least_squares(
                 let candidate = model.stepped(&step);
                 let (n, d, o) = normal_equations(pairs, weights, &candidate, scale);
                 if o <= objective {
-                    let converged = step.dot(&descent) <= 1e-14 * objective || o >= objective;
+                    let converged =
+                        step.dot(&descent) <= CONVERGED_STEP * objective || o >= objective;
                     (model, normal, descent, objective) = (candidate, n, d, o);
-                    damping = (damping * 0.1).max(1e-12);
+                    damping = (damping * DAMPING_FALL).max(MIN_DAMPING);
                     if converged {
                         return model.is_finite().then_some(model);
                     }
@@ -60,7 +75,7 @@ pub(crate) fn least_squares(
                     break;
                 }
             }
-            damping *= 10.0;
+            damping *= DAMPING_RISE;
         }
         if !improved {
             break;
@@ -158,8 +173,8 @@ fn weigh(squared: &[f64], kept: &[bool]) -> Vec<f64> {
 }
 
 fn close(a: &Scale, b: &Scale) -> bool {
-    (a.rotation_rad / b.rotation_rad).ln().abs() < 1e-6
-        && (a.translation_m / b.translation_m).ln().abs() < 1e-6
+    (a.rotation_rad / b.rotation_rad).ln().abs() < CONVERGED_NOISE
+        && (a.translation_m / b.translation_m).ln().abs() < CONVERGED_NOISE
 }
 
 /// The noise by medians, before anything is weighted.
@@ -184,7 +199,7 @@ fn noise_of(pairs: &[Pair], weights: &[f64], model: &HandEyeModel) -> Scale {
         rotation += weight * offset.rotation.norm_squared();
         translation += weight * offset.translation.norm_squared();
     }
-    let sigma = |squares| Loss::variance(squares, 3.0, n, USED).sqrt();
+    let sigma = |squares| Loss::variance(squares, COMPONENTS, n, USED).sqrt();
     Scale {
         rotation_rad: sigma(rotation).max(FLOOR.rotation_rad),
         translation_m: sigma(translation).max(FLOOR.translation_m),

@@ -299,11 +299,11 @@ fn marks(matched: &MatchedImage, threshold: f64) -> Vec<BoxMark> {
     let true_positives = matched
         .true_positives(threshold)
         .into_iter()
-        .map(detected(BoxKind::Found));
+        .map(detected(BoxKind::TruePositive));
     let false_positives = matched
         .false_positives(threshold)
         .into_iter()
-        .map(detected(BoxKind::Further));
+        .map(detected(BoxKind::FalsePositive));
     let missed = matched.missed(threshold).into_iter().map(missed);
     true_positives
         .chain(missed)

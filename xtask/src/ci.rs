@@ -31,11 +31,11 @@ enum Action {
 const FEATURE_TESTS: [(&str, &str); 3] = [
     (
         "pomona-cli",
-        "clippy --package pomona --package pomona-cli --features mcap --all-targets -- -D warnings",
+        "clippy --package pomona-messages --package pomona-cli --features mcap --all-targets -- -D warnings",
     ),
     (
-        "pomona",
-        "test --package pomona --features mcap --test recording",
+        "pomona-messages",
+        "test --package pomona-messages --features mcap --test messages recording",
     ),
     (
         "pomona-cli",
@@ -201,7 +201,7 @@ mod tests {
 
     #[test]
     fn tests_of_features_run_where_their_package_is() {
-        let metadata = r#"{"name": "pomona", "manifest_path": "/x/Cargo.toml", "dependencies": [],
+        let metadata = r#"{"name": "pomona-messages", "manifest_path": "/x/Cargo.toml", "dependencies": [],
             "targets": [], "features": {}}"#;
         let workspace = Workspace::of(vec![serde_json::from_str(metadata).unwrap()]);
         let lines: Vec<String> = steps(&workspace)
@@ -214,7 +214,7 @@ mod tests {
             .unwrap();
         assert_eq!(
             lines[after + 1],
-            "cargo test --package pomona --features mcap --test recording"
+            "cargo test --package pomona-messages --features mcap --test messages recording"
         );
         assert!(!lines.iter().any(|l| l.contains("pomona-cli")));
     }

@@ -1,11 +1,12 @@
 use crate::summary::plural;
 use crate::terminal::{self, FAINT, GOOD, HEADING, REFUSED, Terminal, one_line};
 use anyhow::{anyhow, bail};
-use pomona::{
-    DirectionUse, FusedApple, FusedCloud, FusedRecord, FusedStatus, Fusion, FusionConfig,
-    PosedRecord, Record, RobotFromCamera,
-};
+use pomona::{Record, RobotFromCamera};
 use pomona_cloud::{CloudFormat, Frame};
+use pomona_fusion::{
+    DirectionUse, FusedApple, FusedCloud, FusedRecord, FusedStatus, Fusion, FusionConfig,
+    PosedRecord,
+};
 use serde::Deserialize;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -125,7 +126,7 @@ impl Task<'_> {
                 robot_from_camera: frame.pose,
             })
             .collect();
-        let fusion = pomona::fuse(&posed, config)?;
+        let fusion = pomona_fusion::fuse(&posed, config)?;
         self.write(&fusion, config)?;
         if self.json {
             terminal::print(&(serde_json::to_string_pretty(&fusion.record)? + "\n"))

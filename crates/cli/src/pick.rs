@@ -13,10 +13,11 @@ use crate::{picture, progress};
 use anyhow::{anyhow, bail};
 use clap::Args;
 use pomona::{
-    ApproachConfig, Outcome, Picker, Record, Robot, RobotFromCamera, RobotPlan, find_apples, ros,
+    ApproachConfig, Outcome, Picker, Record, Robot, RobotFromCamera, RobotPlan, find_apples,
 };
 use pomona_cloud::{Frame, read_boxes};
 use pomona_detect::Detector;
+use pomona_messages::ros;
 use std::cell::OnceCell;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -374,7 +375,7 @@ impl Run<'_> {
         if let (Some(robot), Some((plan, transform)), true) =
             (&self.robot, plan, self.arguments.mcap)
         {
-            let bytes = pomona::recording::record(frame, outcome, plan, robot, transform)?;
+            let bytes = pomona_messages::recording::record(frame, outcome, plan, robot, transform)?;
             std::fs::write(output.file(RECORDING), bytes)?;
         }
         if let Some(picture) = picture {

@@ -11,6 +11,7 @@ const LAYERS: &[&[&str]] = &[
     &["pomona-approach", "pomona-calibrate", "pomona-network"],
     &["pomona-detect"],
     &["pomona", "pomona-scenes", "pomona-view"],
+    &["pomona-fusion", "pomona-messages"],
     &["pomona-evaluate"],
     &["pomona-cli"],
 ];

@@ -65,7 +65,12 @@ impl Default for FusionConfig {
 }
 
 impl FusionConfig {
-    pub(crate) fn validate(&self) -> Result<(), ConfigError> {
+    /// Checks every setting.
+    ///
+    /// # Errors
+    ///
+    /// [`ConfigError::Value`] for the first one that makes no sense.
+    pub fn validate(&self) -> Result<(), ConfigError> {
         const RATE: &str = "over 0 and at most 0.1";
         const LENGTH: &str = "positive and at most 1, in metres";
         const FLOOR: &str = "0 to 1, in metres";

@@ -1,30 +1,17 @@
 //! The recording, read back by this implementation of MCAP and by another.
 
-#![cfg(feature = "mcap")]
-#![allow(
-    clippy::unwrap_used,
-    reason = "a test that cannot go on should fail where it stands"
-)]
-
-use pomona::{ApproachConfig, Config, Picker, Robot, RobotFromCamera, recording};
-use pomona_scenes::Suite;
-use pomona_transforms::Transform;
+use crate::lab::{config, lab, planned, transform};
+use pomona::Robot;
+use pomona_messages::recording;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::process::Command;
 
 /// The recording of a lab frame, and the number of its depth readings.
 fn bytes() -> (Vec<u8>, usize) {
-    let mut cases = Suite::Lab15.cases();
-    let scene = cases.find(|c| c.name.ends_with("-x0-s0")).unwrap().scene();
-    let transform = Transform::from_quaternion([0.0, 0.0, 0.5], [-0.5, 0.5, -0.5, 0.5]).unwrap();
-    let transform = RobotFromCamera::new(transform, "base_link", "camera_color_optical_frame");
-    let picker = Picker::new(Config::default()).unwrap();
-    let mut outcome = picker.pick(&scene.frame, 0, Some(&transform)).unwrap();
-    let mut config = ApproachConfig::default();
-    config.clearance.cloud_margin_m = -0.05;
+    let (scene, config) = (lab(), config());
+    let (outcome, plan) = planned(&scene, &config);
     let robot = Robot::new(config).unwrap();
-    let plan = robot.plan(&scene.frame, &mut outcome, &transform).unwrap();
     let readings = scene
         .frame
         .depth
@@ -32,7 +19,7 @@ fn bytes() -> (Vec<u8>, usize) {
         .iter()
         .filter(|r| **r > 0)
         .count();
-    let bytes = recording::record(&scene.frame, &outcome, &plan, &robot, &transform).unwrap();
+    let bytes = recording::record(&scene.frame, &outcome, &plan, &robot, &transform()).unwrap();
     (bytes, readings)
 }
 

@@ -1,7 +1,7 @@
 //! Which sightings are of one apple.
 
-use super::joint::{Joint, Track, jacobian, middle_of, squared_distance};
-use super::sighting::Sighting;
+use crate::joint::{Joint, Track, jacobian, middle_of, squared_distance};
+use crate::sighting::Sighting;
 use nalgebra::{Matrix3, Matrix6, Vector3};
 
 /// Rounds in which pairs and estimate are brought into agreement.

@@ -167,7 +167,7 @@ pub struct SightingRecord {
     /// The pick there.
     pub pick: usize,
     /// The pick's status.
-    pub status: crate::Status,
+    pub status: pomona::Status,
     /// What became of that place.
     pub place: PlaceUse,
     /// Distance of that centre, the common shift taken off, from the fused one; of a moved apple from that of its place then.

@@ -1,30 +1,12 @@
-//! Several frames of one tree: what each frame says of an apple, combined in the robot's frame.
-
-mod apple;
-mod associate;
-mod chi_square;
-mod cloud;
-mod direction;
-mod error;
-mod joint;
-mod record;
-mod settings;
-mod sighting;
-
-pub use cloud::FusedCloud;
-pub use error::FusionError;
-pub use record::{
-    DirectionUse, FUSED_SCHEMA, FusedApple, FusedFrame, FusedRecord, FusedStatus, MovedRecord,
-    PlaceUse, ShiftRecord, SightingRecord,
-};
-pub use settings::FusionConfig;
-
-use crate::{Record, RobotFromCamera};
-use apple::AppleFusion;
-use associate::Association;
-use joint::{Joint, Track, middle_of, squared_distance};
+use crate::apple::AppleFusion;
+use crate::associate::Association;
+use crate::chi_square;
+use crate::error::FusionError;
+use crate::joint::{Joint, Track, middle_of, squared_distance};
+use crate::record::{FUSED_SCHEMA, FusedFrame, FusedRecord, ShiftRecord};
+use crate::sighting::Sighting;
 use nalgebra::{Isometry3, Matrix3, Matrix6, UnitQuaternion, Vector3};
-use sighting::Sighting;
+use pomona::{FusionConfig, Record, RobotFromCamera};
 
 /// The answers for one frame and where its camera stood.
 #[derive(Clone, Copy, Debug)]

@@ -57,5 +57,5 @@ pub enum FusionError {
     Numbers,
     /// A setting makes no sense.
     #[error(transparent)]
-    Config(#[from] crate::ConfigError),
+    Config(#[from] pomona::ConfigError),
 }

@@ -1,19 +1,11 @@
 //! Several frames of one tree: places that are better than each frame's, sway told from moved fruit, and what is refused.
 
-#![allow(
-    clippy::unwrap_used,
-    reason = "a test that cannot go on should fail where it stands"
-)]
-
-mod drawn_tree;
-mod orchard_views;
-
-use drawn_tree::{Trial, View, still};
+use crate::drawn_tree::{Trial, View, still};
+use crate::orchard_views::views;
 use nalgebra::{Matrix3, Matrix6, Point3, Vector3};
-use orchard_views::views;
-use pomona::{
-    DirectionUse, FusedStatus, Fusion, FusionConfig, FusionError, PlaceUse, PosedRecord, Record,
-    RobotFromCamera, fuse,
+use pomona::{Record, RobotFromCamera};
+use pomona_fusion::{
+    DirectionUse, FusedStatus, Fusion, FusionConfig, FusionError, PlaceUse, PosedRecord, fuse,
 };
 
 fn fused(frames: &[(Record, RobotFromCamera)], config: &FusionConfig) -> Fusion {

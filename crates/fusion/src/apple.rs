@@ -1,13 +1,13 @@
 //! One apple from its sightings.
 
-use super::associate::mutual_best;
-use super::chi_square::bound_2;
-use super::direction::{Combined, angle, combine};
-use super::joint::{Joint, Track, jacobian, squared_distance};
-use super::record::{DirectionUse, FusedApple, FusedStatus, MovedRecord, PlaceUse, SightingRecord};
-use super::settings::FusionConfig;
-use super::sighting::{DirectionSighting, Sighting};
+use crate::associate::mutual_best;
+use crate::chi_square::bound_2;
+use crate::direction::{Combined, angle, combine};
+use crate::joint::{Joint, Track, jacobian, squared_distance};
+use crate::record::{DirectionUse, FusedApple, FusedStatus, MovedRecord, PlaceUse, SightingRecord};
+use crate::sighting::{DirectionSighting, Sighting};
 use nalgebra::{Matrix6, Vector3};
+use pomona::FusionConfig;
 use pomona_transforms::{Direction, RobotFrame, ToolOrientation};
 
 /// What apples are made of.

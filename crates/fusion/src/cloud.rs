@@ -1,5 +1,5 @@
-use crate::RobotFromCamera;
 use nalgebra::{Isometry3, Point3};
+use pomona::RobotFromCamera;
 use pomona_cloud::{CloudError, Frame, PixelWindow, PointCloud};
 
 /// One point of the thinned cloud in the making: its cell, then where it is and which colour it has.

@@ -15,9 +15,10 @@
 mod messages;
 mod schemas;
 
-use crate::{Outcome, PickError, Robot, RobotFromCamera, RobotPlan, ros};
+use crate::ros;
 use mcap::records::MessageHeader;
 use mcap::{WriteOptions, Writer};
+use pomona::{Outcome, PickError, Robot, RobotFromCamera, RobotPlan};
 use pomona_cloud::Frame;
 use serde_json::Value;
 use std::collections::BTreeMap;

@@ -1,8 +1,7 @@
 //! One apple as one frame shows it, in the robot's frame.
 
-use super::settings::FusionConfig;
-use crate::{Pick, RobotFromCamera, Status};
 use nalgebra::{Matrix3, Point3, UnitVector3, Vector3};
+use pomona::{FusionConfig, Pick, RobotFromCamera, Status};
 use pomona_transforms::{CameraFrame, Direction, Position};
 
 /// One apple as one frame shows it.

@@ -20,8 +20,8 @@ pub use messages::{
 };
 pub use yaml::to_yaml;
 
-use crate::RobotPlan;
 use nalgebra::{Isometry3, UnitQuaternion};
+use pomona::RobotPlan;
 use pomona_approach::{Approach, ApproachConfig};
 
 /// One file: its name and its text.

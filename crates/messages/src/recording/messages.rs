@@ -1,7 +1,8 @@
 //! The messages' content.
 
-use crate::{PickError, Robot, RobotPlan, ros};
+use crate::ros;
 use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3};
+use pomona::{PickError, Robot, RobotPlan};
 use pomona_cloud::{DepthPoints, Frame, PixelWindow};
 use serde_json::{Value, json};
 use std::f64::consts::PI;

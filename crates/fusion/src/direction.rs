@@ -1,6 +1,6 @@
 //! The frames' directions combined on the sphere.
 
-use super::sighting::DirectionSighting;
+use crate::sighting::DirectionSighting;
 use nalgebra::{UnitVector3, Vector3};
 
 /// Directions that agree, combined.

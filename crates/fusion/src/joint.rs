@@ -5,7 +5,7 @@
 //! its prior what the pose states of its error and what trees sway. Linear, and so solved at once; the apples are
 //! eliminated first (Schur complement), which leaves six unknowns for each frame.
 
-use super::sighting::Sighting;
+use crate::sighting::Sighting;
 use nalgebra::{DMatrix, DVector, Matrix3, Matrix3x6, Matrix6, Vector3, Vector6};
 
 /// Sightings of one apple, as indices, of different frames.

@@ -1,13 +1,13 @@
 //! Errors of single frames and of their fusion on rendered orchards from three sides.
 //!
-//! `cargo run --release -p pomona --example fusion_table -- [FIRST SEED] [SCENES]`
+//! `cargo run --release -p pomona-fusion --example fusion_table -- [FIRST SEED] [SCENES]`
 
-#[path = "../tests/orchard_views/mod.rs"]
+#[path = "../tests/fusion/orchard_views.rs"]
 mod orchard_views;
 
 use nalgebra::{Point3, Vector3};
 use orchard_views::{Views, views};
-use pomona::{FusedApple, FusionConfig, PosedRecord, fuse};
+use pomona_fusion::{FusedApple, FusionConfig, PosedRecord, fuse};
 
 /// Errors of the apples that several frames show.
 #[derive(Default)]
@@ -94,7 +94,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                     );
                 }
             }
-            contradictions += usize::from(apple.status == pomona::FusedStatus::Contradiction);
+            contradictions +=
+                usize::from(apple.status == pomona_fusion::FusedStatus::Contradiction);
             let Some(truth) = nearest(&views, apple) else {
                 continue;
             };

@@ -13,7 +13,6 @@ pub(super) const CRATES_WITH_CIRCLES: &[&str] = &[
     "pomona-calibrate",
     "pomona-cli",
     "pomona-cloud",
-    "pomona-evaluate",
     "pomona-fit",
     "pomona-ransac",
     "pomona-scenes",

@@ -6,7 +6,12 @@ use std::fs;
 
 /// The layers from the bottom up. A crate may depend on crates of lower layers.
 const LAYERS: &[&[&str]] = &[
-    &["pomona-ransac", "pomona-geometry", "pomona-statistics"],
+    &[
+        "pomona-files",
+        "pomona-geometry",
+        "pomona-ransac",
+        "pomona-statistics",
+    ],
     &[
         "pomona-cloud",
         "pomona-fit",

@@ -1,7 +1,7 @@
-use super::{DETECTION, EvaluateArguments, REPORT, detection_text, json, refuse_foreign, say};
+use super::{DETECTION, EvaluateArguments, REPORT, claim, detection_text, json, say};
 use crate::detect;
 use crate::detector::{BUILT_IN, DetectorSettings, Model, parse_class, parse_model, parse_share};
-use crate::output_folder::{OutputFolder, write_text};
+use crate::output_folder::Staging;
 use crate::progress;
 use crate::summary::plural;
 use crate::terminal::Terminal;
@@ -30,10 +30,10 @@ pub(super) struct DetectionArguments {
     /// frame with boxes, or a folder of frames.
     #[arg(long, value_name = "FOLDER", help_heading = HEADING, conflicts_with_all = ["subjects", "methods", "variants", "config", "calipers"])]
     pub(super) detection: Option<PathBuf>,
-    /// A model to measure (ONNX), or `built-in`; may be repeated. Default: built-in, where no --boxes are given.
+    /// A model to measure (ONNX), or `built-in`; may be repeated. Default: built-in, unless --boxes are given.
     #[arg(long = "model", value_name = "FILE", value_parser = parse_model, requires = "detection", help_heading = HEADING)]
     models: Vec<Model>,
-    /// Boxes that another program found in these images: a COCO result list, a COCO file with scores, or a folder with a
+    /// Detections of another program in these images: a COCO result list, a COCO file with scores, or a folder with a
     /// YOLO or VOC file for each image; may be repeated.
     #[arg(long, value_name = "FILE|FOLDER", requires = "detection", help_heading = HEADING)]
     boxes: Vec<PathBuf>,
@@ -58,7 +58,7 @@ pub(super) struct DetectionArguments {
 }
 
 /// The file with the pictures of the worst images of the detector of this number, counted from 1.
-pub(super) fn sheet_name(number: usize) -> String {
+fn sheet_name(number: usize) -> String {
     format!("worst-{number}.png")
 }
 
@@ -75,7 +75,7 @@ pub(super) fn run(
     terminal: Terminal,
 ) -> anyhow::Result<()> {
     let own = &arguments.detection;
-    refuse_foreign(&arguments.out, DETECTION, DETECTION_SCHEMA)?;
+    let output = claim(&arguments.out, DETECTION, DETECTION_SCHEMA, is_sheet)?;
     let mut dataset = LabelledDataset::read(labelled, own.label_class.as_ref())?;
     dataset
         .images
@@ -98,11 +98,11 @@ pub(super) fn run(
     let bar = progress::bar(dataset.images.len());
     let (evaluation, matched) = evaluate_detections(&dataset, &sources, &options, &|| bar.inc(1))?;
     bar.finish_and_clear();
-    let output = OutputFolder::new(&arguments.out)?;
-    let sheets = sheets(&dataset, &evaluation, &matched, &output)?;
-    write_text(&output, DETECTION, &json(&evaluation)?)?;
-    write_text(&output, REPORT, &detection_page(&evaluation, &sheets)?)?;
-    output.publish_replacing(DETECTION, is_sheet)?;
+    let files = output.stage()?;
+    let sheets = sheets(&dataset, &evaluation, &matched, &files)?;
+    files.write_text(DETECTION, &json(&evaluation)?)?;
+    files.write_text(REPORT, &detection_page(&evaluation, &sheets)?)?;
+    files.publish()?;
     say(
         arguments,
         &evaluation,
@@ -243,7 +243,7 @@ fn sheets(
     dataset: &LabelledDataset,
     evaluation: &DetectionEvaluation,
     matched: &[Vec<MatchedImage>],
-    output: &OutputFolder,
+    output: &Staging<'_>,
 ) -> anyhow::Result<Vec<String>> {
     let mut names = Vec::new();
     for (number, (result, matched)) in evaluation.results.iter().zip(matched).enumerate() {

@@ -52,7 +52,7 @@
 //!     end_radius: 0.004,
 //! });
 //! let scene = Shot::new("own", Shot::paper_camera(), Sensor::perfect(), 0).take(&world);
-//! // The pixel in the middle reads the apple's front: 0.76 m.
+//! // The central pixel measures the front of the apple: 0.76 m.
 //! let reading = scene.frame.depth.get(640, 480).expect("inside the image");
 //! assert!((f64::from(reading) * scene.frame.camera.depth_scale - 0.76).abs() < 1e-4);
 //! ```
@@ -67,7 +67,7 @@
 //!
 //! - Gao, Zhou, Cao, Jiang 2022, "An Algorithm for Calculating Apple Picking
 //!   Direction Based on 3D Vision", Agriculture 12(8), 1170,
-//!   doi 10.3390/agriculture12081170: the lab set-up and the repeats.
+//!   doi 10.3390/agriculture12081170: the laboratory set-up and the repeats.
 
 mod apple;
 mod cameras;

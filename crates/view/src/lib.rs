@@ -34,11 +34,11 @@
 //! the line of sight has no length in the picture and is drawn as in physics:
 //! ⊙ points towards the camera, ⊗ away from it.
 //!
-//! [`draw_boxes`] draws nothing but boxes, each a [`BoxMark`], and [`picture_sheet`] sets such pictures side by side.
+//! [`draw_boxes`] draws only boxes, each a [`BoxMark`], and [`picture_sheet`] arranges such pictures on a contact
+//! sheet.
 //!
-//! [`colored_cloud`] colours the points of a cloud in the same way and adds
-//! the direction as points, so that any viewer of PLY files shows it;
-//! [`render_cloud`] looks at a cloud from a [`Viewpoint`].
+//! [`colored_cloud`] colours the points of a cloud in the same way and adds the direction as points, so that any PLY
+//! viewer shows it; [`render_cloud`] renders a cloud from a [`Viewpoint`].
 //!
 //! Pixels are counted from the centre of the top-left one, which is (0, 0),
 //! as [`pomona_cloud::Camera`] does; a box spans whole pixels,
@@ -48,8 +48,8 @@
 //!
 //! # Not here
 //!
-//! Finding apples, branches and directions: this crate draws what it is told.
-//! Files: [`pomona_cloud::ColorImage`] and [`pomona_cloud::PointCloud`] write themselves.
+//! Finding apples, branches and directions: this crate only draws. Files: [`pomona_cloud::ColorImage`] and
+//! [`pomona_cloud::PointCloud`] have their own writers.
 //!
 //! # References
 //!

@@ -11,7 +11,7 @@ const SHORTEST_S: f64 = 0.05;
 /// A segment of a path: one polynomial of degree five for the tool's position.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
-pub struct Piece {
+pub struct PathSegment {
     /// The stage to which it belongs.
     pub stage: Stage,
     /// When it begins, seconds since the start of the path.
@@ -24,7 +24,7 @@ pub struct Piece {
 /// Where the tool is at one time, in the base's frame; metres, radians, seconds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
-pub struct Sample {
+pub struct PathPoint {
     /// Time since the start of the path.
     pub time_s: f64,
     /// Place of the tool's origin.
@@ -39,7 +39,7 @@ pub struct Sample {
     pub angular_velocity: Vector3<f64>,
 }
 
-impl Sample {
+impl PathPoint {
     /// The pose of the tool frame.
     pub fn pose(&self) -> Isometry3<f64> {
         Isometry3::from_parts(self.position.coords.into(), self.rotation)
@@ -52,7 +52,7 @@ impl Sample {
 /// transit, as a quintic in time from rest to rest, and is fixed from the pre-grasp on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Path {
-    pieces: Vec<Piece>,
+    pieces: Vec<PathSegment>,
     start_rotation: UnitQuaternion<f64>,
     /// Axis times angle of the turn from there to the grasp, in the start's axes.
     turn: Vector3<f64>,
@@ -93,7 +93,7 @@ impl Path {
         let mut pieces = Vec::with_capacity(legs.len() + 2);
         let mut time = 0.0;
         let mut push = |stage, curve: Quintic<3>| {
-            pieces.push(Piece {
+            pieces.push(PathSegment {
                 stage,
                 start_s: time,
                 curve,
@@ -143,7 +143,7 @@ impl Path {
     }
 
     /// Its parts in their order.
-    pub fn pieces(&self) -> &[Piece] {
+    pub fn pieces(&self) -> &[PathSegment] {
         &self.pieces
     }
 
@@ -175,7 +175,7 @@ impl Path {
     }
 
     /// Where the tool is at a time; before the start and after the end it rests there.
-    pub fn sample(&self, time_s: f64) -> Sample {
+    pub fn sample(&self, time_s: f64) -> PathPoint {
         let time_s = time_s.clamp(0.0, self.duration_s());
         let later = self.pieces.partition_point(|piece| piece.start_s <= time_s);
         let piece = &self.pieces[later.saturating_sub(1)];
@@ -186,7 +186,7 @@ impl Path {
         } else {
             (1.0, 0.0)
         };
-        Sample {
+        PathPoint {
             time_s,
             position: state.position.into(),
             velocity: state.velocity,
@@ -218,7 +218,7 @@ impl Path {
     }
 
     /// `count` samples at equal steps from the start to the end; at least two.
-    pub fn samples(&self, count: usize) -> Vec<Sample> {
+    pub fn samples(&self, count: usize) -> Vec<PathPoint> {
         let count = count.max(2);
         let step = self.duration_s() / (count - 1) as f64;
         (0..count).map(|i| self.sample(i as f64 * step)).collect()
@@ -228,7 +228,7 @@ impl Path {
     /// one piece.
     pub(crate) fn point_speed_bound(
         &self,
-        piece: &Piece,
+        piece: &PathSegment,
         from_s: f64,
         to_s: f64,
         radius: f64,

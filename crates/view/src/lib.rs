@@ -34,7 +34,7 @@
 //! the line of sight has no length in the picture and is drawn as in physics:
 //! ⊙ points towards the camera, ⊗ away from it.
 //!
-//! [`draw_boxes`] draws only boxes, each a [`BoxMark`], and [`picture_sheet`] arranges such pictures on a contact
+//! [`draw_boxes`] draws only boxes, each a [`BoxMark`], and [`contact_sheet`] arranges such pictures on a contact
 //! sheet.
 //!
 //! [`colored_cloud`] colours the points of a cloud in the same way and adds the direction as points, so that any PLY
@@ -84,5 +84,5 @@ pub use error::ViewError;
 pub use mark::AppleMark;
 pub use overlay::Overlay;
 pub use render::{RenderOptions, render_cloud};
-pub use sheet::{SheetPicture, picture_sheet};
+pub use sheet::{ContactSheetImage, contact_sheet};
 pub use viewpoint::{Projection, Viewpoint};

@@ -1,6 +1,6 @@
 //! Joint refinement of both unknowns on SE(3) × SE(3).
 
-use super::system::{HandEyeModel, Matrix12, Offset, Pair, Scale, normal_equations};
+use super::system::{Matrix12, PosePair, PoseResidual, PoseSolution, Scale, normal_equations};
 use crate::robust::{MEDIAN_NORM_OF_3, StudentT};
 use pomona_statistics::median;
 
@@ -41,11 +41,11 @@ type Loss = StudentT<6>;
 /// doi 10.1137/0111030) with steps on the manifold; `None` where the samples do not determine
 /// it or are not finite.
 pub(crate) fn least_squares(
-    pairs: &[Pair],
+    pairs: &[PosePair],
     weights: &[f64],
-    start: &HandEyeModel,
+    start: &PoseSolution,
     scale: &Scale,
-) -> Option<HandEyeModel> {
+) -> Option<PoseSolution> {
     let mut model = *start;
     let (mut normal, mut descent, mut objective) = normal_equations(pairs, weights, &model, scale);
     let mut damping = FIRST_DAMPING;
@@ -89,7 +89,7 @@ pub(crate) fn least_squares(
 /// A model with its noise, weights and covariance.
 #[derive(Clone, Debug)]
 pub(crate) struct Fit {
-    pub(crate) model: HandEyeModel,
+    pub(crate) model: PoseSolution,
     /// Standard deviations of one component of an offset.
     pub(crate) noise: Scale,
     /// Weight of each sample; 0 for those that are rejected.
@@ -111,7 +111,7 @@ impl Fit {
 ///
 /// Weights and noise are those of a Student t, found in turns with the model; a sample beyond the gate of
 /// a thousandth is left out, and taken in again where it comes back.
-pub(crate) fn robust(pairs: &[Pair], inliers: &[usize], start: &HandEyeModel) -> Option<Fit> {
+pub(crate) fn robust(pairs: &[PosePair], inliers: &[usize], start: &PoseSolution) -> Option<Fit> {
     let mut model = *start;
     let mut kept: Vec<bool> = (0..pairs.len()).map(|i| inliers.contains(&i)).collect();
     let mut noise = first_noise(pairs, &kept, &model)?;
@@ -145,7 +145,7 @@ pub(crate) fn robust(pairs: &[Pair], inliers: &[usize], start: &HandEyeModel) ->
     finish(pairs, model, noise, &kept)
 }
 
-fn finish(pairs: &[Pair], model: HandEyeModel, noise: Scale, kept: &[bool]) -> Option<Fit> {
+fn finish(pairs: &[PosePair], model: PoseSolution, noise: Scale, kept: &[bool]) -> Option<Fit> {
     let squared: Vec<f64> = pairs
         .iter()
         .map(|p| model.offset(p).squared(&noise))
@@ -178,8 +178,8 @@ fn close(a: &Scale, b: &Scale) -> bool {
 }
 
 /// The noise by medians, before anything is weighted.
-fn first_noise(pairs: &[Pair], kept: &[bool], model: &HandEyeModel) -> Option<Scale> {
-    let size = |part: fn(&Offset) -> f64| {
+fn first_noise(pairs: &[PosePair], kept: &[bool], model: &PoseSolution) -> Option<Scale> {
+    let size = |part: fn(&PoseResidual) -> f64| {
         let offsets = pairs.iter().zip(kept).filter(|(_, k)| **k);
         let mut sizes: Vec<f64> = offsets.map(|(p, _)| part(&model.offset(p))).collect();
         Some(median(&mut sizes)? / MEDIAN_NORM_OF_3)
@@ -191,7 +191,7 @@ fn first_noise(pairs: &[Pair], kept: &[bool], model: &HandEyeModel) -> Option<Sc
 }
 
 /// The noise by weighted squares.
-fn noise_of(pairs: &[Pair], weights: &[f64], model: &HandEyeModel) -> Scale {
+fn noise_of(pairs: &[PosePair], weights: &[f64], model: &PoseSolution) -> Scale {
     let n = weights.iter().filter(|w| **w > 0.0).count() as f64;
     let (mut rotation, mut translation) = (0.0, 0.0);
     for (pair, weight) in pairs.iter().zip(weights) {

@@ -75,7 +75,7 @@ pub struct ModelDescription {
     pub tile: Option<usize>,
     /// Pixels of the image that neighbouring tiles share.
     pub tile_overlap: Option<usize>,
-    /// Whether a tiled image is also looked at as a whole.
+    /// Whether a tiled image is also processed as a whole.
     pub whole_pass: Option<bool>,
 }
 

@@ -187,6 +187,8 @@ mod tests {
             rename: None,
             kind: kind.map(Into::into),
             optional: false,
+            uses_default_features: true,
+            features: Vec::new(),
         });
         Package {
             name: name.into(),
@@ -194,6 +196,8 @@ mod tests {
             dependencies: dependencies.collect(),
             targets: Vec::new(),
             features: BTreeMap::new(),
+            publish: None,
+            rust_version: None,
         }
     }
 

@@ -4,7 +4,8 @@ mod detection;
 mod detection_text;
 mod text;
 
-use crate::output_folder::{OutputFolder, PICKS, write_text};
+use crate::output_folder::{OutputFolder, RecordFile};
+use crate::pick_files::PICKS;
 use crate::progress;
 use crate::terminal::{self, Terminal};
 use anyhow::bail;
@@ -25,12 +26,12 @@ use std::path::{Path, PathBuf};
 
 const EXAMPLES: &str = "\
 Examples:
-  pomona evaluate lab150 --out out                    the paper's fifteen orientations, ten draws each
+  pomona evaluate lab150 --out out                    the paper's fifteen orientations, ten noise draws each
   pomona evaluate lab15 frames/a --out out            suites and frames with truth.json
   pomona evaluate orchard@1000 --method paper --method robust --out out
-                                                      other scenes: those of the seeds 1000, 1001, ...
+                                                      other scenes: seeds 1000, 1001, ...
   pomona evaluate orchard --count 50 --json --out out | jq '.results[].angle.error.mean'
-  pomona evaluate orchard --robot --out out           the gripper in the base's frame, after a simulated calibration
+  pomona evaluate orchard --robot --out out           the gripper in the base frame, after a simulated calibration
   pomona evaluate --calipers calipers.csv frames/a frames/b --out out
   pomona evaluate --detection tiles --out out         the built-in model on images with labels
   pomona evaluate --detection tiles --model built-in --model mine.onnx --boxes theirs.json --out out
@@ -38,7 +39,7 @@ Examples:
 
 Writes evaluation.json, apples.csv and report.html into DIR; with --calipers calipers.json and report.html; with \
 --detection detection.json, report.html and a sheet of each detector's worst images, worst-N.png.
-A frame without truth can be evaluated with --calipers only: a CSV with the columns box_name and diameter_mm.";
+A frame without ground truth can only be evaluated with --calipers: a CSV with the columns box_name and diameter_mm.";
 
 /// The results, by their names in the folder.
 const EVALUATION: &str = "evaluation.json";
@@ -50,52 +51,51 @@ const REPORT: &str = "report.html";
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct EvaluateArguments {
-    /// Suites (see `pomona scenes --list`), SUITE@N for their scenes from the seed N on, frames with truth.json, or
+    /// Suites (see `pomona scenes --list`), SUITE@N for scenes from seed N on, frames with truth.json, or
     /// folders of such frames; with --calipers any frames.
     #[arg(required_unless_present = "detection", value_name = "SUITE|FRAME")]
     subjects: Vec<String>,
-    /// Where to write. Our own files are replaced.
+    /// Output folder. Files of earlier runs are replaced.
     #[arg(short, long, value_name = "DIR")]
     out: PathBuf,
-    /// A method; may be repeated, to set methods side by side. Default: that of the settings.
+    /// A method; may be repeated to compare methods. Default: that of the settings.
     #[arg(long = "method", value_name = "NAME", value_parser = PossibleValuesParser::new(Method::ALL.map(Method::name)))]
     methods: Vec<String>,
-    /// Settings from a TOML file; what it leaves out keeps its default (see `pomona config`).
+    /// Settings from a TOML file; missing ones keep their defaults (see `pomona config`).
     #[arg(long, value_name = "FILE")]
     config: Option<PathBuf>,
-    /// Other settings to set beside the methods: a TOML file, whose name without its ending stands for them; may be
-    /// repeated.
+    /// Further settings to compare with the methods: a TOML file, named in the result by its file name without
+    /// extension; may be repeated.
     #[arg(long = "variant", value_name = "FILE")]
     variants: Vec<PathBuf>,
-    /// Seed of the methods, or of the intervals with --detection; scenes have seeds of their own.
+    /// Seed of the methods, or of the intervals with --detection; scenes have their own seeds.
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u64,
-    /// Only so many frames of each suite, or images with --detection, from the first.
+    /// Only the first N frames of each suite, or images with --detection.
     #[arg(long, value_name = "N")]
     count: Option<usize>,
-    /// Measured diameters (CSV), by box name: compares fitted radii with them, and the centres of each
-    /// pair of frames with each other.
+    /// Measured diameters (CSV), by box name: compares fitted radii with them, and the centres of each pair of frames.
     #[arg(long, value_name = "FILE", conflicts_with = "count")]
     calipers: Option<PathBuf>,
-    /// Send a robot to the apples: for each frame a camera is mounted on it and calibrated from noisy samples, the picks
-    /// are planned, and the gripper is compared with the truth in the base's frame. With =FILE a robot's settings
-    /// (see `pomona config --robot`).
+    /// Simulate a robot: for each frame a camera is mounted on it and calibrated from noisy samples, the picks are
+    /// planned, and the gripper is compared with the ground truth in the base frame. With =FILE, the settings of a
+    /// robot (see `pomona config --robot`).
     #[arg(long, value_name = "FILE", num_args = 0..=1, require_equals = true, conflicts_with = "calipers")]
     #[allow(
         clippy::option_option,
         reason = "an option whose value may be left out, as clap has it"
     )]
     robot: Option<Option<PathBuf>>,
-    /// Noise of the calibration's samples in rotation, root mean square of the angle.
+    /// Rotation noise of the calibration samples, root mean square of the angle.
     #[arg(long, value_name = "DEG", default_value_t = 0.2, requires = "robot")]
     calibration_noise_deg: f64,
-    /// Noise of the calibration's samples in place, root mean square of the length.
+    /// Translation noise of the calibration samples, root mean square of the length.
     #[arg(long, value_name = "MM", default_value_t = 1.0, requires = "robot")]
     calibration_noise_mm: f64,
-    /// Samples of the calibration.
+    /// Number of calibration samples.
     #[arg(long, value_name = "N", default_value_t = 15, requires = "robot")]
     calibration_poses: usize,
-    /// Print the result to standard output as JSON in place of the table.
+    /// Print the result to standard output as JSON instead of the table.
     #[arg(long)]
     json: bool,
     #[command(flatten)]
@@ -208,7 +208,7 @@ fn against_truth(
     methods: &[&dyn PickMethod],
     terminal: Terminal,
 ) -> anyhow::Result<()> {
-    refuse_foreign(&arguments.out, EVALUATION, SCHEMA)?;
+    let output = claim(&arguments.out, EVALUATION, SCHEMA, |n| n == APPLES)?;
     let trial = trial(arguments)?;
     let mut subjects: Vec<Subject> = Vec::new();
     for name in &arguments.subjects {
@@ -232,11 +232,11 @@ fn against_truth(
         None => evaluate(&subjects, methods, seed, &done)?,
     };
     bar.finish_and_clear();
-    let output = OutputFolder::new(&arguments.out)?;
-    write_text(&output, EVALUATION, &json(&evaluation)?)?;
-    write_text(&output, APPLES, &apples_csv(&evaluation)?)?;
-    write_text(&output, REPORT, &report_page(&evaluation)?)?;
-    output.publish()?;
+    let files = output.stage()?;
+    files.write_text(EVALUATION, &json(&evaluation)?)?;
+    files.write_text(APPLES, &apples_csv(&evaluation)?)?;
+    files.write_text(REPORT, &report_page(&evaluation)?)?;
+    files.publish()?;
     say(
         arguments,
         &evaluation,
@@ -250,7 +250,7 @@ fn against_calipers(
     methods: &[&dyn PickMethod],
     terminal: Terminal,
 ) -> anyhow::Result<()> {
-    refuse_foreign(&arguments.out, CALIPERS, CALIPER_SCHEMA)?;
+    let output = claim(&arguments.out, CALIPERS, CALIPER_SCHEMA, |_| false)?;
     let calipers = read_calipers(calipers)?;
     let frames: Vec<Frame> = arguments
         .subjects
@@ -258,10 +258,10 @@ fn against_calipers(
         .map(Frame::read)
         .collect::<Result<_, _>>()?;
     let report = measure_calipers(&frames, &calipers, methods, arguments.seed)?;
-    let output = OutputFolder::new(&arguments.out)?;
-    write_text(&output, CALIPERS, &json(&report)?)?;
-    write_text(&output, REPORT, &caliper_page(&report)?)?;
-    output.publish()?;
+    let files = output.stage()?;
+    files.write_text(CALIPERS, &json(&report)?)?;
+    files.write_text(REPORT, &caliper_page(&report)?)?;
+    files.publish()?;
     say(arguments, &report, &text::calipers(&report, terminal))
 }
 
@@ -277,35 +277,24 @@ fn say(arguments: &EvaluateArguments, result: &impl Serialize, text: &str) -> an
     terminal::print(&format!("{text}\nwritten to {place}\n"))
 }
 
-/// Refuses a folder in which our files would replace somebody else's.
-fn refuse_foreign(folder: &Path, main: &str, schema: &str) -> anyhow::Result<()> {
-    #[derive(Deserialize)]
-    struct Head {
-        schema: String,
-    }
+/// Claims the names of an evaluation's record and its page, and those that `writes` knows.
+fn claim(
+    folder: &Path,
+    record: &str,
+    schema: &str,
+    writes: impl Fn(&str) -> bool,
+) -> anyhow::Result<OutputFolder> {
     if folder.join(PICKS).exists() {
         bail!(
             "{}: holds the answers of `pomona pick`; name another folder by --out",
             folder.display()
         );
     }
-    let path = folder.join(main);
-    let head = std::fs::read(&path)
-        .ok()
-        .and_then(|bytes| serde_json::from_slice::<Head>(&bytes).ok());
-    if head.is_some_and(|head| head.schema == schema) {
-        return Ok(());
-    }
-    let sheet = detection::sheet_name(1);
-    for name in [EVALUATION, CALIPERS, APPLES, DETECTION, REPORT, &sheet] {
-        if folder.join(name).exists() {
-            bail!(
-                "{}: would be replaced, and no {main} says that this program wrote it; name another folder by --out",
-                folder.join(name).display()
-            );
-        }
-    }
-    Ok(())
+    let record = RecordFile {
+        name: record,
+        schema,
+    };
+    OutputFolder::claim(folder, &[record], |name| name == REPORT || writes(name))
 }
 
 #[cfg(test)]

@@ -1,9 +1,10 @@
 use crate::apple_cloud::{AppleClouds, CloudChoice};
 use crate::detector::DetectorArguments;
 use crate::fuse;
+use crate::output_folder::OutputFolder;
 #[cfg(feature = "mcap")]
-use crate::output_folder::RECORDING;
-use crate::output_folder::{OutputFolder, PICKS, PICTURE, cloud_name, refuse_foreign, write_text};
+use crate::pick_files::RECORDING;
+use crate::pick_files::{self, PICKS, PICTURE, cloud_name};
 use crate::picture::RobotView;
 use crate::settings::SettingsArguments;
 use crate::summary::{plural, summary};
@@ -13,10 +14,11 @@ use crate::{picture, progress};
 use anyhow::{anyhow, bail};
 use clap::Args;
 use pomona::{
-    ApproachConfig, Outcome, Picker, Record, Robot, RobotFromCamera, RobotPlan, find_apples, ros,
+    ApproachConfig, Outcome, Picker, Record, Robot, RobotFromCamera, RobotPlan, find_apples,
 };
 use pomona_cloud::{Frame, read_boxes};
 use pomona_detect::Detector;
+use pomona_messages::ros;
 use std::cell::OnceCell;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -127,9 +129,10 @@ pub(crate) fn run(arguments: &PickArguments, terminal: Terminal) -> anyhow::Resu
         arguments,
         terminal,
     };
-    if arguments.fuse {
-        fuse::check(&arguments.frames, &arguments.out)?;
-    }
+    let fused_output = arguments
+        .fuse
+        .then(|| fuse::claim(&arguments.frames, &arguments.out))
+        .transpose()?;
     let jobs = jobs(arguments)?;
     let poses = run.poses(&jobs)?;
     let bar = progress::bar(jobs.len());
@@ -152,7 +155,7 @@ pub(crate) fn run(arguments: &PickArguments, terminal: Terminal) -> anyhow::Resu
     }
     bar.finish_and_clear();
     let complete = records.len() == jobs.len();
-    if arguments.fuse && complete {
+    if let (Some(output), true) = (&fused_output, complete) {
         let frames = jobs.iter().zip(&records).zip(poses.iter().flatten());
         let frames: Vec<_> = frames
             .map(|((job, record), pose)| fuse::FusedInput {
@@ -163,7 +166,7 @@ pub(crate) fn run(arguments: &PickArguments, terminal: Terminal) -> anyhow::Resu
             .collect();
         let task = fuse::Task {
             frames: &frames,
-            out: &arguments.out,
+            output,
             cloud: arguments.fused_cloud,
             json: arguments.json,
         };
@@ -202,42 +205,39 @@ fn json(records: &[Record], one: bool) -> serde_json::Result<String> {
 /// One frame's folder and that of its answers.
 struct Job {
     frame: PathBuf,
-    out: PathBuf,
+    output: OutputFolder,
 }
 
 fn jobs(arguments: &PickArguments) -> anyhow::Result<Vec<Job>> {
-    let jobs = if let [frame] = &*arguments.frames {
-        vec![Job {
-            frame: frame.clone(),
-            out: arguments.out.clone(),
-        }]
-    } else {
-        if arguments.boxes.is_some() {
+    let job = |frame: &Path, out: &Path| -> anyhow::Result<Job> {
+        Ok(Job {
+            frame: frame.to_owned(),
+            output: pick_files::claim(out)?,
+        })
+    };
+    if let [frame] = &*arguments.frames {
+        return Ok(vec![job(frame, &arguments.out)?]);
+    }
+    if arguments.boxes.is_some() {
+        bail!(
+            "--boxes holds the boxes of one frame, but {} frames are given; put boxes into each frame's folder",
+            arguments.frames.len()
+        );
+    }
+    let mut seen: HashMap<PathBuf, &Path> = HashMap::new();
+    let mut jobs = Vec::new();
+    for frame in &arguments.frames {
+        let id = folder_name(frame)?;
+        if let Some(other) = seen.insert(id.clone(), frame) {
             bail!(
-                "--boxes holds the boxes of one frame, but {} frames are given; put boxes into each frame's folder",
-                arguments.frames.len()
+                "{} and {}: both would be written to {}; rename one of the folders, or give each a run of its own",
+                other.display(),
+                frame.display(),
+                arguments.out.join(id).display()
             );
         }
-        let mut seen: HashMap<PathBuf, &Path> = HashMap::new();
-        let mut jobs = Vec::new();
-        for frame in &arguments.frames {
-            let id = folder_name(frame)?;
-            if let Some(other) = seen.insert(id.clone(), frame) {
-                bail!(
-                    "{} and {}: both would be written to {}; rename one of the folders, or give each a run of its own",
-                    other.display(),
-                    frame.display(),
-                    arguments.out.join(id).display()
-                );
-            }
-            jobs.push(Job {
-                frame: frame.clone(),
-                out: arguments.out.join(id),
-            });
-        }
-        jobs
-    };
-    jobs.iter().try_for_each(|job| refuse_foreign(&job.out))?;
+        jobs.push(job(frame, &arguments.out.join(id))?);
+    }
     Ok(jobs)
 }
 
@@ -359,22 +359,21 @@ impl Run<'_> {
             Some(AppleClouds::new(frame)?)
         };
 
-        let output = OutputFolder::new(&job.out)?;
-        write_text(
-            &output,
+        let output = job.output.stage()?;
+        output.write_text(
             PICKS,
             &(serde_json::to_string_pretty(&outcome.record)? + "\n"),
         )?;
         if let (Some(robot), Some((plan, _)), true) = (&self.robot, plan, self.arguments.ros) {
             for file in ros::files(plan, robot.config()) {
-                write_text(&output, &file.name, &file.text)?;
+                output.write_text(&file.name, &file.text)?;
             }
         }
         #[cfg(feature = "mcap")]
         if let (Some(robot), Some((plan, transform)), true) =
             (&self.robot, plan, self.arguments.mcap)
         {
-            let bytes = pomona::recording::record(frame, outcome, plan, robot, transform)?;
+            let bytes = pomona_messages::recording::record(frame, outcome, plan, robot, transform)?;
             std::fs::write(output.file(RECORDING), bytes)?;
         }
         if let Some(picture) = picture {

@@ -5,13 +5,13 @@ use pomona_scenes::AppleTruth;
 /// Least overlap of two boxes that are of the same apple, as intersection over union.
 ///
 /// The usual threshold of detection benchmarks (PASCAL VOC; Everingham et al. 2010).
-pub const SAME_APPLE_IOU: f64 = 0.5;
+const SAME_APPLE_IOU: f64 = 0.5;
 
 /// For each apple of the truth the index of its pick, each pick used once.
 ///
 /// A pick whose box bears the apple's name and overlaps it at all is taken first: names repeat in
 /// detectors' output, where each may be `apple`. The rest are joined by overlap, best first.
-pub fn match_picks(truth: &[AppleTruth], picks: &[Pick]) -> Vec<Option<usize>> {
+pub(crate) fn match_picks(truth: &[AppleTruth], picks: &[Pick]) -> Vec<Option<usize>> {
     let mut matched = vec![None; truth.len()];
     let mut used = vec![false; picks.len()];
     let mut pairs = Vec::new();

@@ -1,7 +1,11 @@
-use crate::{
-    AppleRow, BaseRow, EvaluateError, Evaluation, PickMethod, RobotTrial, SCHEMA, Subject,
-    SuiteResult, compare, match_picks,
-};
+use crate::apple_row::AppleRow;
+use crate::error::EvaluateError;
+use crate::evaluation::{Evaluation, SCHEMA};
+use crate::matching::match_picks;
+use crate::method::PickMethod;
+use crate::robot::{BaseRow, RobotTrial};
+use crate::subject::Subject;
+use crate::suite::{SuiteResult, compare};
 use rayon::prelude::*;
 
 /// What one method said of one frame.

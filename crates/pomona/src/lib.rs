@@ -30,10 +30,8 @@
 //!   [`Picker::pick_found`] takes it from there.
 //! - An apple without an answer is no error: it has a [`Status`] that says why, and what is
 //!   known stays in its record. Asked for in [`FallbackConfig`], a labelled way to come in stands beside the refusal.
-//! - [`fuse`] combines the records of several frames of one tree, each with its camera's pose: one entry for
-//!   each apple in the robot's frame, the tree's sway and the apples that have moved.
 //! - A [`Robot`], where there is one, plans from an outcome how its gripper gets to each apple and in
-//!   which order, and adds that to the record; [`ros`] writes it as messages of ROS 2 and `MoveIt`.
+//!   which order, and adds that to the record.
 //! - Two methods are chosen by name: `paper` ([`PaperConfig`]), Gao et al. 2022, and `robust`
 //!   ([`RobustConfig`]), ours, whose answers say how sure they are.
 //!
@@ -42,15 +40,10 @@
 //! Metres and radians; the camera's frame is REP-103 optical (x right, y down, z forward).
 //! With a transform, position and direction are given in the robot's frame as well.
 //!
-//! # Features
-//!
-//! `mcap` (off by default): the module `recording` writes a frame and its plan as an MCAP file with
-//! Foxglove's schemas.
-//!
 //! # Not here
 //!
-//! Networks that find apples in a colour image (`pomona-detect`, or the frame's boxes say where they are), drawing,
-//! argument parsing.
+//! Networks that find apples in a colour image (`pomona-detect`, or the frame's boxes say where they are), several frames
+//! of one tree (`pomona-fusion`), messages of ROS 2 and recordings (`pomona-messages`), drawing, argument parsing.
 //!
 //! # References
 //!
@@ -61,16 +54,13 @@ mod config;
 mod detection;
 mod error;
 mod fallback;
-mod fusion;
+mod fusion_config;
 mod paper;
 mod picker;
 mod plan_record;
 mod record;
-#[cfg(feature = "mcap")]
-pub mod recording;
 mod robot;
 mod robust;
-pub mod ros;
 mod seed;
 mod surroundings;
 
@@ -81,11 +71,7 @@ pub use detection::{
 };
 pub use error::PickError;
 pub use fallback::{DirectionSource, FallbackConfig, FallbackKind};
-pub use fusion::{
-    DirectionUse, FUSED_SCHEMA, FusedApple, FusedCloud, FusedFrame, FusedRecord, FusedStatus,
-    Fusion, FusionConfig, FusionError, MovedRecord, PlaceUse, PosedRecord, ShiftRecord,
-    SightingRecord, fuse,
-};
+pub use fusion_config::FusionConfig;
 pub use picker::{Evidence, Outcome, Picker, RobotFromCamera};
 pub use plan_record::{
     ApproachRecord, ClearanceRecord, GripperRecord, OrderRecord, PathRecord, PieceRecord,

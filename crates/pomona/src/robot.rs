@@ -4,7 +4,8 @@ use crate::{
 };
 use nalgebra::{Isometry3, Point3, Quaternion, Translation3, UnitQuaternion, Vector3};
 use pomona_approach::{
-    ApproachConfig, ConfigError, Order, Planner, Refusal, Scene, StartPose, Target, pick_order,
+    ApproachConfig, ConfigError, ObstacleMap, Order, Planner, Refusal, StartPose, Target,
+    pick_order,
 };
 use pomona_cloud::{DepthPoints, Frame, PixelWindow};
 use pomona_geometry::{Capsule, Segment, Sphere};
@@ -25,7 +26,7 @@ pub struct RobotPlan {
     /// Name of the robot's frame.
     pub frame_id: String,
     /// What is in the way.
-    pub scene: Scene,
+    pub scene: ObstacleMap,
     /// The order, and the approach or refusal of each target.
     pub order: Order,
     /// The id of the pick that each target comes from.
@@ -121,7 +122,7 @@ impl Robot {
                 target_ids.push(pick.id);
             }
         }
-        let scene = Scene::new(apples, branches, &cloud, &config.clearance);
+        let scene = ObstacleMap::new(apples, branches, &cloud, &config.clearance);
         let start = self.start(&to_robot);
         let order = pick_order(&self.planner, &scene, &targets, &start);
         let plan = RobotPlan {

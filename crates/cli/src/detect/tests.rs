@@ -80,12 +80,11 @@ fn detect_in(dir: &TempDir, names: &[&str], more: &[&str]) -> Result<(), String>
         .arguments;
     let run = || -> anyhow::Result<()> {
         let images = images_of(&arguments)?;
-        let earlier = record::files_of_earlier_run(&arguments.out.join(DETECTIONS));
-        refuse_foreign(&arguments, &images, &earlier)?;
+        let output = claim(&arguments, &images)?;
         let job = Job {
             arguments: &arguments,
             images: &images,
-            earlier: &earlier,
+            output: &output,
             detector: &Middle,
             open_ms: 1.5,
         };

@@ -1,15 +1,13 @@
+use super::camera;
 use super::facts::{Facts, range};
-use super::folder::add_camera;
 use crate::summary::summary;
 use anyhow::{anyhow, bail};
 use pomona::{Config, Record, RobotFromCamera};
-use pomona_cloud::{Camera, ColorImage, read_boxes};
+use pomona_cloud::{ColorImage, read_boxes};
 use pomona_scenes::{TRUTH_SCHEMA, Truth};
+use pomona_transforms::SCHEMA as TRANSFORM_SCHEMA;
 use serde_json::Value;
 use std::path::Path;
-
-/// The schema of a transform's file.
-const TRANSFORM_SCHEMA: &str = "pomona.transform/1";
 
 /// Whether a file that begins so holds boxes: XML, or a text named so.
 pub(super) fn is_box_file(path: &Path, start: &[u8]) -> bool {
@@ -36,7 +34,7 @@ pub(super) fn json(path: &Path) -> anyhow::Result<Facts> {
             pomona::SCHEMA
         ),
         None if value.is_array() || value.get("annotations").is_some() => boxes(path),
-        None => camera(path),
+        None => camera::facts(path),
     }
 }
 
@@ -90,15 +88,6 @@ fn transform(path: &Path, named: &RobotFromCamera) -> Facts {
     let text = quaternion.map(|c| format!("{c:.6}")).join(" ");
     facts.add("quaternion_xyzw", quaternion.to_vec(), text);
     facts
-}
-
-/// A camera, as JSON or YAML.
-pub(super) fn camera(path: &Path) -> anyhow::Result<Facts> {
-    let camera = Camera::read(path)?;
-    let mut facts = Facts::new(path, "camera");
-    facts.size(camera.width, camera.height);
-    add_camera(&mut facts, &camera);
-    Ok(facts)
 }
 
 /// Settings, as TOML.

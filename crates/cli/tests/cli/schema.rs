@@ -3,8 +3,8 @@
 use crate::binary::pomona;
 use crate::scene::{Bench, frame};
 use pomona::{Config, Mark, Picker, find_apples};
-use pomona_detect::Detection;
-use pomona_evaluate::FixedDetector;
+use pomona_cloud::ColorImage;
+use pomona_detect::{DetectError, Detection, Detector, DetectorReport};
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -114,6 +114,24 @@ fn picks() {
     schema.refuses(&picks, "/picks/1/status", Some(json!("picked")));
     schema.refuses(&picks, "/picks/0/direction", Some(json!([0, 0])));
     schema.refuses(&picks, "/picks/0/direction", Some(json!([0, 0, 2])));
+}
+
+/// Finds the same boxes in every image.
+struct FixedDetector {
+    detections: Vec<Detection>,
+}
+
+impl Detector for FixedDetector {
+    fn detect(&self, _: &ColorImage) -> Result<Vec<Detection>, DetectError> {
+        Ok(self.detections.clone())
+    }
+
+    fn report(&self) -> DetectorReport {
+        DetectorReport {
+            name: "fixed".to_owned(),
+            ..DetectorReport::default()
+        }
+    }
 }
 
 #[test]

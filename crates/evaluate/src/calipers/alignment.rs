@@ -1,7 +1,7 @@
 use super::rigid::align;
-use crate::statistics::Summary;
 use nalgebra::{Isometry3, Point3};
 use pomona::Record;
+use pomona_statistics::Summary;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 

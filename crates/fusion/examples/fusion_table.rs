@@ -1,0 +1,127 @@
+//! Errors of single frames and of their fusion on rendered orchards from three sides.
+//!
+//! `cargo run --release -p pomona-fusion --example fusion_table -- [FIRST SEED] [SCENES]`
+
+#[path = "../tests/fusion/orchard_views.rs"]
+mod orchard_views;
+
+use nalgebra::{Point3, Vector3};
+use orchard_views::{Views, views};
+use pomona_fusion::{FusedApple, FusionConfig, PosedRecord, fuse};
+
+/// Errors of the apples that several frames show.
+#[derive(Default)]
+struct Errors {
+    centers: Vec<f64>,
+    directions: Vec<f64>,
+}
+
+impl Errors {
+    fn print(&self, name: &str) {
+        let mean = |v: &[f64]| v.iter().sum::<f64>() / v.len().max(1) as f64;
+        let off = self.directions.iter().filter(|d| **d > 20.0).count();
+        println!(
+            "{name}: centre {:.2} mm (n {}), direction {:.2} deg (n {}), over 20 deg: {off}",
+            mean(&self.centers) * 1e3,
+            self.centers.len(),
+            mean(&self.directions),
+            self.directions.len()
+        );
+    }
+
+    fn add(
+        &mut self,
+        views: &Views,
+        apple: usize,
+        center: Vector3<f64>,
+        direction: Option<[f64; 3]>,
+    ) {
+        self.centers.push((center - views.centers[apple]).norm());
+        if let Some((d, truth)) = direction.zip(views.directions[apple]) {
+            self.directions
+                .push(Vector3::from(d).angle(&truth).to_degrees());
+        }
+    }
+}
+
+fn nearest(views: &Views, apple: &FusedApple) -> Option<usize> {
+    let center = Vector3::from(apple.center);
+    (0..views.centers.len())
+        .filter(|&i| (views.centers[i] - center).norm() < 0.03)
+        .min_by(|&a, &b| {
+            let distance = |i: usize| (views.centers[i] - center).norm();
+            distance(a).total_cmp(&distance(b))
+        })
+}
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let mut arguments = std::env::args().skip(1);
+    let first: u64 = arguments.next().map_or(Ok(4000), |a| a.parse())?;
+    let scenes: u64 = arguments.next().map_or(Ok(40), |a| a.parse())?;
+    let (mut single, mut fused) = (Errors::default(), Errors::default());
+    let (mut moved, mut apples, mut shared, mut contradictions) = (0, 0, 0, 0);
+    let mut split = 0;
+    for seed in first..first + scenes {
+        let views = views(seed);
+        let posed: Vec<PosedRecord<'_>> = views
+            .frames
+            .iter()
+            .map(|(record, robot_from_camera)| PosedRecord {
+                record,
+                robot_from_camera,
+            })
+            .collect();
+        let fusion = fuse(&posed, &FusionConfig::default())?;
+        let mut known = vec![0; views.centers.len()];
+        for apple in &fusion.record.apples {
+            apples += 1;
+            if let Some(movement) = &apple.moved {
+                moved += 1;
+                println!(
+                    "scene {seed}: moved {:.1} ± {:.1} mm: {}",
+                    movement.distance * 1e3,
+                    movement.sd * 1e3,
+                    apple.reason
+                );
+                for s in &apple.sightings {
+                    let own = views.frames[s.frame].0.picks[s.pick].apple.as_ref();
+                    let radius = own.map_or(0.0, |a| a.radius);
+                    let visible = own.and_then(|a| a.visible_share).unwrap_or(0.0);
+                    let sd = own.and_then(|a| a.radius_sd).unwrap_or(0.0);
+                    println!(
+                        "  frame {}: radius {radius:.4} ± {sd:.4}, visible {visible:.2}",
+                        s.frame
+                    );
+                }
+            }
+            contradictions +=
+                usize::from(apple.status == pomona_fusion::FusedStatus::Contradiction);
+            let Some(truth) = nearest(&views, apple) else {
+                continue;
+            };
+            known[truth] += 1;
+            if apple.sightings.len() < 2 {
+                continue;
+            }
+            shared += 1;
+            fused.add(&views, truth, Vector3::from(apple.center), apple.direction);
+            for s in &apple.sightings {
+                let (record, pose) = &views.frames[s.frame];
+                let pick = &record.picks[s.pick];
+                let Some(own) = &pick.apple else { continue };
+                let center = pose.transform.isometry() * Point3::from(own.center);
+                let direction = pick
+                    .direction
+                    .map(|d| (pose.transform.rotation() * Vector3::from(d)).into());
+                single.add(&views, truth, center.coords, direction);
+            }
+        }
+        split += known.iter().filter(|n| **n > 1).count();
+    }
+    single.print("single");
+    fused.print("fused ");
+    println!(
+        "{apples} apples, {shared} of them shared; false moved {moved}, split {split}, contradictions {contradictions}"
+    );
+    Ok(())
+}

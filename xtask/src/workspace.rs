@@ -28,6 +28,14 @@ pub(crate) struct Package {
     pub targets: Vec<Target>,
     #[serde(default)]
     pub rust_version: Option<String>,
+    #[serde(default)]
+    pub description: Option<String>,
+    #[serde(default)]
+    pub keywords: Vec<String>,
+    #[serde(default)]
+    pub categories: Vec<String>,
+    #[serde(default)]
+    pub readme: Option<PathBuf>,
     pub features: BTreeMap<String, Vec<String>>,
     /// Where it may be published: `None` anywhere, an empty list nowhere.
     #[serde(default)]

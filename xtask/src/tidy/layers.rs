@@ -216,6 +216,10 @@ mod tests {
             features: BTreeMap::new(),
             publish: None,
             rust_version: None,
+            description: None,
+            keywords: Vec::new(),
+            categories: Vec::new(),
+            readme: None,
         }
     }
 

@@ -18,7 +18,8 @@ const LAYERS: &[&[&str]] = &[
         "pomona-report",
         "pomona-transforms",
     ],
-    &["pomona-approach", "pomona-calibrate", "pomona-detect"],
+    &["pomona-approach", "pomona-calibrate", "pomona-network"],
+    &["pomona-detect"],
     &["pomona", "pomona-scenes", "pomona-view"],
     &["pomona-fusion", "pomona-messages"],
     &["pomona-evaluate", "pomona-labels"],
@@ -38,6 +39,16 @@ const FORBIDDEN: &[(&str, &str, &str)] = &[
         "the detector knows no robots",
     ),
     ("pomona-detect", "pomona-fit", "the detector knows no depth"),
+    (
+        "pomona-network",
+        "pomona-fit",
+        "a network knows pixels alone",
+    ),
+    (
+        "pomona-network",
+        "pomona-transforms",
+        "a network knows pixels alone",
+    ),
     ("pomona-view", "pomona-fit", "pictures know no algorithms"),
     (
         "pomona-view",

@@ -188,7 +188,7 @@ impl DetectionArguments {
         for (number, one) in opened.iter().enumerate() {
             if opened[..number].iter().any(|other| other.name == one.name) {
                 bail!(
-                    "--model and --boxes: `{}` stands twice; give each once, and files names of their own",
+                    "--model and --boxes: `{}` is given twice; give each once, and files names of their own",
                     one.name
                 );
             }

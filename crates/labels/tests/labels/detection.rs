@@ -272,11 +272,9 @@ struct Middle;
 impl Detector for Middle {
     fn detect(&self, image: &ColorImage) -> Result<Vec<Detection>, DetectError> {
         if image.width == 1 {
-            return Err(DetectError::Image {
-                width: 1,
-                height: image.height,
-                problem: "too small".to_owned(),
-                remedy: "give a larger one".to_owned(),
+            return Err(DetectError::Other {
+                detector: "middle".to_owned(),
+                source: "too small".into(),
             });
         }
         let (x, y) = (image.width as f64 / 4.0, image.height as f64 / 4.0);

@@ -16,12 +16,7 @@ impl Detector for Fixed {
         DetectorReport {
             name: "fixed".to_owned(),
             family: Some("truth".to_owned()),
-            runtime: Some(RuntimeReport {
-                name: "none".to_owned(),
-                version: "1".to_owned(),
-                library: None,
-                fallback_reason: None,
-            }),
+            runtime: Some(RuntimeReport::new("none", "1")),
             notes: vec!["none".to_owned()],
         }
     }

@@ -11,7 +11,8 @@ use crate::{
 };
 use pomona_cloud::{ColorImage, PixelWindow};
 use pomona_network::{
-    ImageNetwork, Letterbox, Malformed, Network, Tensor, Tiling, check_image, input_size,
+    ImageNetwork, Letterbox, Malformed, Network, NetworkError, Tensor, Tiling, check_image,
+    input_size,
 };
 
 /// Lowest score of a box where neither options nor description say.

@@ -99,7 +99,7 @@ fn finite_part(cloud: &PointCloud) -> PointCloud {
     cloud.select((0..cloud.len()).filter(|&i| is_finite(cloud, i)))
 }
 
-/// Refuses a cloud that holds nothing, and NaN points where they do not stand for pixels without a reading.
+/// Refuses an empty cloud, and NaN points where they do not represent pixels without a reading.
 fn check(cloud: &PointCloud, path: &Path) -> anyhow::Result<()> {
     let path = path.display();
     if cloud.is_empty() {
@@ -126,7 +126,7 @@ fn check(cloud: &PointCloud, path: &Path) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// What a cloud holds, in a few words.
+/// A short description of a cloud.
 fn description(cloud: &PointCloud) -> String {
     let missing = cloud.len() - cloud.finite_points().count();
     let parts = [

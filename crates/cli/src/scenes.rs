@@ -86,7 +86,7 @@ fn suite_list() -> String {
     list
 }
 
-/// The case with another seed; its name says so, so that draws can stand side by side.
+/// The case with another seed, which its name shows, so that several draws fit in one folder.
 fn reseeded(mut case: Case, more: u64) -> Case {
     if more > 0 {
         let seed = case.seed.wrapping_add(more);

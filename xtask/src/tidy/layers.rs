@@ -1,6 +1,6 @@
 //! Arrows between the crates point down only.
 
-use super::{Finding, key_at};
+use super::finding::{Finding, key_at};
 use crate::workspace::{Dependency, Package, Workspace};
 use std::fs;
 

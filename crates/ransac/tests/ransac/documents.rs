@@ -3,10 +3,10 @@
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 
-const SETTINGS: &str = include_str!("../docs/settings.md");
-const GUIDE: &str = include_str!("../docs/own-estimator.md");
-const QUOTED: &str = include_str!("../examples/circle_2d.rs");
-const FRONT_PAGE: &str = include_str!("../src/lib.rs");
+const SETTINGS: &str = include_str!("../../docs/settings.md");
+const GUIDE: &str = include_str!("../../docs/own-estimator.md");
+const QUOTED: &str = include_str!("../../examples/circle_2d.rs");
+const FRONT_PAGE: &str = include_str!("../../src/lib.rs");
 
 fn is_word(c: char) -> bool {
     c.is_alphanumeric() || c == '_'

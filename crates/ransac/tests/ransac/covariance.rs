@@ -7,9 +7,7 @@ use pomona_ransac::{
 use rand_chacha::{ChaCha8Rng, rand_core::SeedableRng};
 use std::ops::Range;
 
-#[allow(dead_code, reason = "each test file uses a part")]
-mod lines;
-use lines::{Line, Points, gaussian, unit};
+use crate::lines::{Line, Points, gaussian, unit};
 
 const TRUTH: Line = Line {
     slope: 0.7,

@@ -9,11 +9,8 @@ use rand_chacha::{ChaCha8Rng, rand_core::SeedableRng};
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
-#[allow(dead_code, reason = "each test file uses a part")]
-mod lines;
-mod numbers;
-use lines::{Line, Points};
-use numbers::Numbers;
+use crate::lines::{Line, Points};
+use crate::numbers::Numbers;
 
 struct Counting;
 

@@ -6,9 +6,7 @@ use pomona_ransac::{
 };
 use rand_chacha::{ChaCha8Rng, rand_core::SeedableRng};
 
-#[allow(dead_code, reason = "each test file uses a part")]
-mod lines;
-use lines::{Line, Points};
+use crate::lines::{Line, Points};
 
 /// Two crossing lines of almost the same size, noise as wide as the threshold, and many outliers.
 fn hard(seed: u64) -> Points {

@@ -7,9 +7,7 @@ use pomona_ransac::{
 use proptest::prelude::*;
 use rand_chacha::{ChaCha8Rng, rand_core::SeedableRng};
 
-#[allow(dead_code, reason = "each test file uses a part")]
-mod lines;
-use lines::{Line, Points};
+use crate::lines::{Line, Points};
 
 const NOISE: f64 = 0.004;
 const THRESHOLD: f64 = 0.015;
@@ -210,8 +208,8 @@ fn the_competition_finds_the_best_of_all_sets() {
         // Copies that are a little off, and lines through two points of any kind.
         for k in 0..7 {
             let mut copy = truth()[k % 5];
-            copy.intercept += 0.006 * (lines::unit(&mut draws) - 0.5);
-            copy.slope += 0.006 * (lines::unit(&mut draws) - 0.5);
+            copy.intercept += 0.006 * (crate::lines::unit(&mut draws) - 0.5);
+            copy.slope += 0.006 * (crate::lines::unit(&mut draws) - 0.5);
             candidates.push(copy);
         }
         for penalty in [0.5, 10.0, 60.0, 95.0, 1000.0] {
@@ -250,7 +248,7 @@ fn refits_raise_the_worth_and_the_order_of_candidates_does_not_matter() {
         let mut draws = Draws::new(seed, 5);
         let mut rough: Vec<Line> = truth().to_vec();
         for line in &mut rough {
-            line.intercept += 0.01 * (lines::unit(&mut draws) - 0.5);
+            line.intercept += 0.01 * (crate::lines::unit(&mut draws) - 0.5);
         }
         let run = |lines: &[Line], rounds: usize| {
             let rule = Competition::with_penalty(30.0).rounds(rounds);

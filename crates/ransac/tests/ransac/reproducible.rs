@@ -8,11 +8,8 @@ use pomona_ransac::{
 };
 use rand_chacha::{ChaCha8Rng, rand_core::SeedableRng};
 
-#[allow(dead_code, reason = "each test file uses a part")]
-mod lines;
-mod numbers;
-use lines::{Line, Points};
-use numbers::Numbers;
+use crate::lines::{Line, Points};
+use crate::numbers::Numbers;
 
 type Search<T, B> = Ransac<Msac<f64>, Uniform, Unconstrained, LeastSquares, T, B>;
 

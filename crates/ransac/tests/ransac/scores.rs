@@ -6,8 +6,7 @@ use pomona_ransac::{
 };
 use rand_chacha::{ChaCha8Rng, rand_core::SeedableRng};
 
-mod numbers;
-use numbers::Numbers;
+use crate::numbers::Numbers;
 
 fn rng() -> ChaCha8Rng {
     ChaCha8Rng::seed_from_u64(11)

@@ -11,9 +11,7 @@ use proptest::prelude::*;
 use rand_chacha::{ChaCha8Rng, rand_core::SeedableRng};
 use std::ops::Range;
 
-#[allow(dead_code, reason = "each test file uses a part")]
-mod lines;
-use lines::{Line, Points, unit};
+use crate::lines::{Line, Points, unit};
 
 fn rng(seed: u64) -> ChaCha8Rng {
     ChaCha8Rng::seed_from_u64(seed)

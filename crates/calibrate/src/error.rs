@@ -1,7 +1,6 @@
-use std::path::PathBuf;
 use thiserror::Error;
 
-/// Why samples give no calibration.
+/// Why samples do not give a calibration.
 ///
 /// Every message says what is wrong and what to do about it.
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -34,7 +33,7 @@ pub enum CalibrateError {
         needed: usize,
     },
     /// Two samples have one id.
-    #[error("the id `{id}` stands twice; give each sample an id of its own")]
+    #[error("the id `{id}` is given twice; give each sample an id of its own")]
     SameId {
         /// The id.
         id: String,
@@ -115,37 +114,9 @@ pub enum CalibrateError {
         /// The tolerance, with units.
         tolerance: String,
     },
-    /// The equations leave something open for another reason.
+    /// The equations are underdetermined for another reason.
     #[error(
         "the samples do not determine the answer; take more of them, with rotations of 30 degrees and more about axes that differ"
     )]
     Undetermined,
-}
-
-/// Why a file of samples could not be read.
-///
-/// Every message names the file, the place in it, and what to do about it.
-#[derive(Debug, Error)]
-#[non_exhaustive]
-pub enum SampleFileError {
-    /// The operating system refused to read the file.
-    #[error("{}: cannot be read: {source}; check the path", .path.display())]
-    Read {
-        /// The file.
-        path: PathBuf,
-        /// What the system said.
-        source: std::io::Error,
-    },
-    /// The content is not of the form documented at [`SampleSet`](crate::SampleSet).
-    #[error("{}: {place}: {problem}; {remedy}", .path.display())]
-    Form {
-        /// The file.
-        path: PathBuf,
-        /// Line, or sample and field.
-        place: String,
-        /// What is wrong there.
-        problem: String,
-        /// What to do about it.
-        remedy: String,
-    },
 }

@@ -21,13 +21,10 @@ use pomona_transforms::{
     UncertainTransform,
 };
 use rand_core::Rng;
-use refine::Fit;
-use system::{Model, Pair, Scale};
+use refine::{Fit, LEAST_POSES};
+use system::{HandEyeModel, Pair, Scale};
 
-/// Three poses determine the unknowns; a fourth tells whether one of them is wrong.
-pub(crate) const LEAST_POSES: usize = 4;
-
-/// Fewer samples than this are no safeguard against a wrong one.
+/// With fewer samples than this, a wrong one may go unnoticed.
 const SAFE_POSES: usize = 8;
 
 /// Where the camera is, from poses of a target; with `Carrier` what the camera is fixed to and `Other`
@@ -39,9 +36,9 @@ pub struct PoseCalibration<Carrier: FrameTag, Other: FrameTag> {
     pub camera: UncertainTransform<Carrier, CameraFrame>,
     /// What was found beside it, `other_from_target`, with its covariance.
     pub target: UncertainTransform<Other, TargetFrame>,
-    /// What began the winning fit.
+    /// The minimal solver whose model was refined.
     pub solver: PoseSolver,
-    /// How far the robot turned among the samples that are believed.
+    /// How far the robot turned among the inlier samples.
     pub motions: MotionSpread,
     /// Residuals, rejections and leave-one-out errors.
     pub quality: Quality,
@@ -193,12 +190,12 @@ fn search<R: Rng + ?Sized>(
     tolerance: Scale,
     options: &Options,
     rng: &mut R,
-) -> Result<(PoseSolver, Model, Vec<usize>), CalibrateError> {
+) -> Result<(PoseSolver, HandEyeModel, Vec<usize>), CalibrateError> {
     let needed = LEAST_POSES.max(pairs.len() / 2 + 1);
     let engine = Ransac::new(Msac::within(1.0))
         .local_optimization(LeastSquares::default())
         .stopping(FixedCount::new(u64::from(options.hypotheses)).max_draws(20_000));
-    let mut best: Option<(f64, PoseSolver, Model, Vec<usize>)> = None;
+    let mut best: Option<(f64, PoseSolver, HandEyeModel, Vec<usize>)> = None;
     for &solver in solvers {
         let estimator = PosePairs {
             pairs,

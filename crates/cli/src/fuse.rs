@@ -1,14 +1,13 @@
+use crate::output_folder::{OutputFolder, RecordFile};
 use crate::summary::plural;
 use crate::terminal::{self, FAINT, GOOD, HEADING, REFUSED, Terminal, one_line};
 use anyhow::{anyhow, bail};
-use pomona::{Record, RobotFromCamera};
+use pomona::{FrameAnswer, RobotFromCamera};
 use pomona_cloud::{CloudFormat, Frame};
 use pomona_fusion::{
     DirectionUse, FusedApple, FusedCloud, FusedRecord, FusedStatus, Fusion, FusionConfig,
-    PosedRecord,
+    PosedAnswer,
 };
-use serde::Deserialize;
-use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The fused answers.
@@ -21,20 +20,20 @@ const POSE: &str = "robot_from_camera.json";
 /// One frame, answered.
 pub(crate) struct FusedInput<'a> {
     pub(crate) folder: &'a Path,
-    pub(crate) record: &'a Record,
+    pub(crate) answer: &'a FrameAnswer,
     pub(crate) pose: &'a RobotFromCamera,
 }
 
 /// What is to be fused, and where it goes.
 pub(crate) struct Task<'a> {
     pub(crate) frames: &'a [FusedInput<'a>],
-    pub(crate) out: &'a Path,
+    pub(crate) output: &'a OutputFolder,
     pub(crate) cloud: bool,
     pub(crate) json: bool,
 }
 
-/// Refuses what cannot be fused before any work is done.
-pub(crate) fn check(frames: &[PathBuf], out: &Path) -> anyhow::Result<()> {
+/// Refuses what cannot be fused before any work is done, and claims the names of the fused files.
+pub(crate) fn claim(frames: &[PathBuf], out: &Path) -> anyhow::Result<OutputFolder> {
     if frames.len() < 2 {
         bail!("--fuse takes at least two frames of one tree, and one is given");
     }
@@ -51,32 +50,11 @@ pub(crate) fn check(frames: &[PathBuf], out: &Path) -> anyhow::Result<()> {
         }
         seen.push((full, frame));
     }
-    let (record, cloud) = (out.join(FUSED), out.join(CLOUD));
-    if record.exists() {
-        if !is_fused(&record) {
-            bail!(
-                "{}: is not a result of this program; name another folder by --out",
-                record.display()
-            );
-        }
-    } else if cloud.exists() {
-        bail!(
-            "{}: would be replaced, and no {FUSED} says that this program wrote it; name another folder by --out",
-            cloud.display()
-        );
-    }
-    Ok(())
-}
-
-fn is_fused(path: &Path) -> bool {
-    #[derive(Deserialize)]
-    struct Head {
-        schema: String,
-    }
-    let head = fs::read(path)
-        .ok()
-        .and_then(|bytes| serde_json::from_slice::<Head>(&bytes).ok());
-    head.is_some_and(|head| head.schema.starts_with("pomona.fused/"))
+    let record = RecordFile {
+        name: FUSED,
+        schema: "pomona.fused/",
+    };
+    OutputFolder::claim(out, &[record], |name| name == CLOUD)
 }
 
 /// The poses of the frames' cameras, all in one frame of the robot.
@@ -118,11 +96,11 @@ fn pose(folder: &Path, of_all: Option<&RobotFromCamera>) -> anyhow::Result<Robot
 impl Task<'_> {
     /// Fuses, writes and prints.
     pub(crate) fn run(&self, config: &FusionConfig, terminal: Terminal) -> anyhow::Result<()> {
-        let posed: Vec<PosedRecord<'_>> = self
+        let posed: Vec<PosedAnswer<'_>> = self
             .frames
             .iter()
-            .map(|frame| PosedRecord {
-                record: frame.record,
+            .map(|frame| PosedAnswer {
+                answer: frame.answer,
                 robot_from_camera: frame.pose,
             })
             .collect();
@@ -135,9 +113,8 @@ impl Task<'_> {
         }
     }
 
-    /// The cloud first: whoever waits for the answers finds it in place.
     fn write(&self, fusion: &Fusion, config: &FusionConfig) -> anyhow::Result<()> {
-        let cloud = self.out.join(CLOUD);
+        let files = self.output.stage()?;
         if self.cloud {
             let mut fused = FusedCloud::new(config.voxel_m);
             for (input, correction) in self.frames.iter().zip(&fusion.corrections) {
@@ -146,29 +123,14 @@ impl Task<'_> {
             }
             fused
                 .cloud()
-                .write(&cloud, CloudFormat::PlyBinaryLittleEndian)?;
-        } else if cloud.exists() {
-            fs::remove_file(&cloud).map_err(|e| refused(&cloud, &e))?;
+                .write(files.file(CLOUD), CloudFormat::PlyBinaryLittleEndian)?;
         }
-        let record = self.out.join(FUSED);
-        let part = self
-            .out
-            .join(format!(".pomona-{}.part", std::process::id()));
-        let text = serde_json::to_string_pretty(&fusion.record)? + "\n";
-        let written = fs::write(&part, text).and_then(|()| fs::rename(&part, &record));
-        written.map_err(|e| {
-            // The first error is the one to report.
-            let _ = fs::remove_file(&part);
-            refused(&record, &e)
-        })
+        files.write_text(
+            FUSED,
+            &(serde_json::to_string_pretty(&fusion.record)? + "\n"),
+        )?;
+        files.publish()
     }
-}
-
-fn refused(path: &Path, error: &std::io::Error) -> anyhow::Error {
-    anyhow!(
-        "{}: cannot be written: {error}; check that the place is writable and has room",
-        path.display()
-    )
 }
 
 /// What a person reads of the fused answers.

@@ -43,7 +43,7 @@ mod sighting;
 
 pub use cloud::FusedCloud;
 pub use error::FusionError;
-pub use fuse::{Fusion, PosedRecord, fuse};
+pub use fuse::{Fusion, PosedAnswer, fuse};
 pub use pomona::FusionConfig;
 pub use record::{
     DirectionUse, FUSED_SCHEMA, FusedApple, FusedFrame, FusedRecord, FusedStatus, MovedRecord,

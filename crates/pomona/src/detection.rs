@@ -2,48 +2,54 @@
 
 mod appearance;
 mod candidate;
+mod depth_check;
+mod grid_readings;
 mod joining;
-mod look;
 mod mark;
-mod record;
+mod origin;
 mod roundness;
-mod samples;
 mod search;
+mod summary;
 
-pub use candidate::FoundBox;
+pub use candidate::DetectedBox;
 pub use mark::Mark;
-pub use record::{DetectionRecord, DetectionTiming, FoundBy, FoundRecord};
+pub use origin::{BoxOrigin, FoundBy};
+pub use summary::{DetectionSummary, DetectionTimes};
 
-use crate::optics::Projection;
+use crate::config::Config;
+use crate::error::PickError;
+use crate::frame::CheckedFrame;
 use crate::seed::apple_rng;
-use crate::{Config, PickError};
 use candidate::{Candidate, SEED};
+use depth_check::DepthChecker;
+use grid_readings::GridReadings;
 use joining::join;
-use look::Looker;
-use pomona_cloud::{ColorImage, Frame, PixelBox};
+use pomona_cloud::{ColorImage, PixelBox};
 use pomona_detect::{Detection, Detector};
 use rayon::prelude::*;
+
 use search::search;
 use std::time::Instant;
 
 /// The boxes of a frame's apples, and what found them.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Found {
+#[non_exhaustive]
+pub struct DetectedApples {
     /// Those of the colour image, best first, then those that only depth shows.
-    pub boxes: Vec<FoundBox>,
-    /// What `picks.json` says of the detection.
-    pub record: DetectionRecord,
+    pub boxes: Vec<DetectedBox>,
+    /// The detector, and what became of its boxes.
+    pub summary: DetectionSummary,
 }
 
-impl Found {
+impl DetectedApples {
     /// The boxes alone, as box files hold them: those that depth gives no reason to doubt.
     pub fn plausible(&self) -> impl Iterator<Item = &PixelBox> {
-        let plausible = |b: &&FoundBox| b.found.mark == Mark::Plausible;
+        let plausible = |b: &&DetectedBox| b.origin.mark == Mark::Plausible;
         self.boxes.iter().filter(plausible).map(|b| &b.bounds)
     }
 }
 
-/// Finds the apples of `frame`: what `detector` sees in the colour image, each box looked at in depth.
+/// Finds the apples of `frame`: what `detector` sees in the colour image, each box checked against depth.
 ///
 /// A box keeps its place and gets a [`Mark`]; boxes that show one apple are joined into their hull, with the
 /// best of their scores. With [`DetectionConfig::depth_search`], apples that the colour misses are looked for among
@@ -52,16 +58,13 @@ impl Found {
 ///
 /// # Errors
 ///
-/// [`PickError::Frame`] where the frame's parts contradict each other, [`PickError::Detect`] where the detector fails.
+/// [`PickError::Detect`] where the detector fails.
 pub fn find_apples(
-    frame: &Frame,
+    frame: &CheckedFrame<'_>,
     detector: &dyn Detector,
     config: &Config,
-) -> Result<Found, PickError> {
-    frame.validate().map_err(|source| PickError::Frame {
-        frame: frame.id.clone(),
-        source: Box::new(source),
-    })?;
+) -> Result<DetectedApples, PickError> {
+    let (projection, frame) = (frame.projection(), frame.frame());
     let start = Instant::now();
     let detections = detector
         .detect(&frame.color)
@@ -69,54 +72,49 @@ pub fn find_apples(
             frame: frame.id.clone(),
             source: Box::new(source),
         })?;
-    let mut record = DetectionRecord::of(&detector.report());
-    record.timing_ms.detector = milliseconds(start);
-    record.detections = detections.len();
+    let mut summary = DetectionSummary {
+        detector: detector.report(),
+        detections: detections.len(),
+        ..DetectionSummary::default()
+    };
+    summary.times.detector = start.elapsed();
 
     let start = Instant::now();
-    let bounds = named(&detections, &frame.color);
-    let Some(projection) = Projection::new(&frame.camera) else {
-        // Frame::validate has computed with the lens.
-        return Ok(Found {
-            boxes: Vec::new(),
-            record,
-        });
-    };
-    let looker = Looker::new(&frame.depth, &projection, config);
-    let candidates: Vec<Candidate> = bounds
+    let checker = DepthChecker::new(&frame.depth, projection, config);
+    let candidates: Vec<Candidate> = named(&detections, &frame.color)
         .into_par_iter()
         .enumerate()
-        .map_init(Default::default, |samples, (i, bounds)| {
+        .map_init(GridReadings::default, |readings, (i, bounds)| {
             let mut rng = apple_rng(SEED, &frame.id, i);
-            let look = looker.look(&bounds, &mut rng, samples);
-            Candidate::new(bounds, FoundBy::Color, look)
+            let check = checker.check(&bounds, &mut rng, readings);
+            Candidate::new(bounds, FoundBy::Color, check, &checker, readings)
         })
         .collect();
-    let mut candidates = join(candidates, &looker, &frame.id);
-    record.timing_ms.depth_check = milliseconds(start);
+    let mut candidates = join(candidates, &checker, &frame.id);
+    summary.times.depth_check = start.elapsed();
 
     if config.detection.depth_search {
         let start = Instant::now();
-        let more = search(frame, &looker, &candidates);
+        let more = search(frame, &checker, &candidates);
         candidates.extend(more);
-        record.timing_ms.depth_search = Some(milliseconds(start));
+        summary.times.depth_search = Some(start.elapsed());
     }
-    count(&mut record, &candidates);
+    count(&mut summary, &candidates);
     let boxes = candidates.into_iter().map(Candidate::finish).collect();
-    Ok(Found { boxes, record })
+    Ok(DetectedApples { boxes, summary })
 }
 
 /// Counts what became of the boxes.
-fn count(record: &mut DetectionRecord, candidates: &[Candidate]) {
+fn count(summary: &mut DetectionSummary, candidates: &[Candidate]) {
     let number = |wanted: &dyn Fn(&Candidate) -> bool| {
         candidates
             .iter()
             .filter(|candidate| wanted(candidate))
             .count()
     };
-    record.merged = candidates.iter().map(|c| c.parts - 1).sum();
-    record.marked = number(&|c| c.look.mark.refuses());
-    record.by_depth = number(&|c| c.found_by == FoundBy::Depth);
+    summary.merged = candidates.iter().map(|c| c.parts - 1).sum();
+    summary.marked = number(&|c| c.check.mark.refuses());
+    summary.by_depth = number(&|c| c.found_by == FoundBy::Depth);
 }
 
 /// The detections as boxes of the image, named by their number; what holds no pixel is left out.
@@ -133,10 +131,6 @@ fn named(detections: &[Detection], image: &ColorImage) -> Vec<PixelBox> {
     boxes
         .filter(|b| b.validate(image.width, image.height).is_ok())
         .collect()
-}
-
-fn milliseconds(since: Instant) -> f64 {
-    since.elapsed().as_secs_f64() * 1e3
 }
 
 #[cfg(test)]

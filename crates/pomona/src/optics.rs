@@ -5,9 +5,9 @@
 mod depth_patch;
 mod noise;
 mod projection;
-mod sphere_window;
+mod windows;
 
 pub(crate) use depth_patch::DepthPatch;
 pub(crate) use noise::{DepthNoise, depth_jump_m};
 pub(crate) use projection::Projection;
-pub(crate) use sphere_window::window_of;
+pub(crate) use windows::{window_of_box, window_of_sphere};

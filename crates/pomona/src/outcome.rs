@@ -1,23 +1,21 @@
-use crate::record::Record;
-use pomona_transforms::{CameraFrame, NamedTransform, RobotFrame};
+//! The pipeline's answers as types: positions, directions and covariances with their frame, lengths in metres,
+//! angles in radians.
+//!
+//! Every stage of the program reads these; [`record`](crate::record) turns them into the form of `picks.json`.
 
-/// The transform that brings camera coordinates into the robot's frame.
-pub type RobotFromCamera = NamedTransform<RobotFrame, CameraFrame>;
+mod apple;
+mod direction;
+mod fitted;
+mod frame;
+mod plan;
+mod robot;
+mod status;
 
-/// What supports one answer: pixels of the depth image as `v * width + u`, for pictures.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Evidence {
-    /// Pixels on the apple's surface.
-    pub surface: Vec<u32>,
-    /// Pixels on its branch.
-    pub branch: Vec<u32>,
-}
-
-/// The answers for a frame.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Outcome {
-    /// What `picks.json` holds.
-    pub record: Record,
-    /// The evidence of each pick, in the same order.
-    pub evidence: Vec<Evidence>,
-}
+pub use apple::{AppleAnswer, Evidence, StageTimes};
+pub(crate) use direction::unit;
+pub use direction::{DirectionSource, FallbackDirection, PickDirection};
+pub use fitted::{BranchCandidate, FittedApple, FittedBranch};
+pub use frame::FrameAnswer;
+pub use plan::{ApplePlan, NearestObstacle, PlannedApproach, PlannedTurn};
+pub use robot::{RobotFromCamera, RobotTarget};
+pub use status::Status;

@@ -1,5 +1,5 @@
-//! Where things are for the robot: frames as types, rigid transforms between them, and the
-//! orientation of a tool that approaches along a direction.
+//! Coordinate frames as types, rigid transforms between them with their uncertainty, and the orientation of a tool
+//! that approaches along a direction.
 //!
 //! ```
 //! use nalgebra::{Point3, Vector3};
@@ -22,7 +22,7 @@
 //! assert!((center.point() - Point3::new(0.8, 0.0, 0.5)).norm() < 1e-12);
 //! assert!((upwards.vector() - Vector3::z()).norm() < 1e-12);
 //!
-//! // Straight up, the turn about z is anyone's choice, and the answer says so.
+//! // Straight up, the rotation about z is arbitrary, and the answer says so.
 //! let tool = ToolOrientation::along(&upwards);
 //! assert!(tool.singular && tool.euler.rz == 0.0);
 //!
@@ -44,8 +44,8 @@
 //!   what is known in the camera's frame into the robot's. A position takes its rotation and its
 //!   translation, a direction the rotation only. Transforms compose where the inner frames
 //!   agree; anything else does not compile.
-//! - A [`NamedTransform`] adds what the types cannot know, the frame ids of a camera and a robot
-//!   at run time, and is what `robot_from_camera.json` holds.
+//! - A [`NamedTransform`] adds the frame ids that a camera and a robot have at run time, and is what
+//!   `robot_from_camera.json` holds.
 //! - A [`ToolOrientation`] turns a tool that points along +x into a direction, as a quaternion
 //!   and as [`EulerZyx`] angles; along ±z, where one angle has no value of its own, it says so. A
 //!   [`ToolModel`] says which axis of the tool approaches, and where the tool is on the flange.
@@ -76,14 +76,15 @@
 mod direction;
 mod error;
 mod euler;
-mod file;
 pub mod formats;
 mod frame;
 mod json;
 mod matrix;
 mod named;
 mod position;
+mod position_covariance;
 mod quaternion;
+mod schema;
 mod tool;
 mod tool_model;
 mod transform;
@@ -91,12 +92,15 @@ pub mod twist;
 mod uncertain;
 
 pub use direction::Direction;
-pub use error::{CovarianceError, TransformError, TransformFileError};
+pub use error::{CovarianceError, TransformContentError, TransformError, TransformFileError};
 pub use euler::EulerZyx;
 pub use frame::{CameraFrame, FlangeFrame, FrameTag, RobotFrame, TargetFrame, ToolFrame};
-pub use json::{MAX_TRANSLATION_M, SCHEMA};
 pub use named::NamedTransform;
+pub use pomona_files::FileError;
 pub use position::Position;
+pub use position_covariance::PositionCovariance;
+pub use quaternion::canonical_xyzw;
+pub use schema::{MAX_TRANSLATION_M, SCHEMA};
 pub use tool::{SINGULAR_ANGLE_RAD, ToolOrientation, paper_as_printed_euler};
 pub use tool_model::{ToolModel, UNKNOWN_ANGLE_SIGMA_RAD, UncertainToolOrientation};
 pub use transform::Transform;

@@ -1,16 +1,20 @@
 //! Joint refinement of both unknowns on SE(3) × SE(3).
 
-use super::system::{Matrix12, Model, Offset, Pair, Scale, normal_equations};
-use crate::robust::{StudentT, median};
+use super::system::{HandEyeModel, Matrix12, Offset, Pair, Scale, normal_equations};
+use crate::robust::{MEDIAN_NORM_OF_3, StudentT};
+use pomona_statistics::median;
+
+/// Three poses determine the unknowns; a fourth tells whether one of them is wrong.
+pub(crate) const LEAST_POSES: usize = 4;
 
 const MAX_STEPS: usize = 50;
 const MAX_ROUNDS: usize = 30;
 const MAX_DAMPING: f64 = 1e10;
 
-/// Twelve unknowns are the price of two samples.
+/// Samples whose degrees of freedom the twelve unknowns use up.
 const USED: f64 = 2.0;
 
-/// The least noise that is believed, so that samples without any do not make each other outliers.
+/// Lower bound of the estimated noise, so that exact samples do not make each other outliers.
 const FLOOR: Scale = Scale {
     rotation_rad: 1e-5,
     translation_m: 1e-6,
@@ -25,9 +29,9 @@ type Loss = StudentT<6>;
 pub(crate) fn least_squares(
     pairs: &[Pair],
     weights: &[f64],
-    start: &Model,
+    start: &HandEyeModel,
     scale: &Scale,
-) -> Option<Model> {
+) -> Option<HandEyeModel> {
     let mut model = *start;
     let (mut normal, mut descent, mut objective) = normal_equations(pairs, weights, &model, scale);
     let mut damping = 1e-9;
@@ -67,10 +71,10 @@ pub(crate) fn least_squares(
     model.is_finite().then_some(model)
 }
 
-/// A model with all that was learnt beside it.
+/// A model with its noise, weights and covariance.
 #[derive(Clone, Debug)]
 pub(crate) struct Fit {
-    pub(crate) model: Model,
+    pub(crate) model: HandEyeModel,
     /// Standard deviations of one component of an offset.
     pub(crate) noise: Scale,
     /// Weight of each sample; 0 for those that are rejected.
@@ -92,10 +96,10 @@ impl Fit {
 ///
 /// Weights and noise are those of a Student t, found in turns with the model; a sample beyond the gate of
 /// a thousandth is left out, and taken in again where it comes back.
-pub(crate) fn robust(pairs: &[Pair], inliers: &[usize], start: &Model) -> Option<Fit> {
+pub(crate) fn robust(pairs: &[Pair], inliers: &[usize], start: &HandEyeModel) -> Option<Fit> {
     let mut model = *start;
     let mut kept: Vec<bool> = (0..pairs.len()).map(|i| inliers.contains(&i)).collect();
-    let mut noise = first_noise(pairs, &kept, &model);
+    let mut noise = first_noise(pairs, &kept, &model)?;
     for _ in 0..MAX_ROUNDS {
         let squared: Vec<f64> = pairs
             .iter()
@@ -109,7 +113,7 @@ pub(crate) fn robust(pairs: &[Pair], inliers: &[usize], start: &Model) -> Option
             .map(|p| next.offset(p).squared(&next_noise) <= Loss::gate())
             .collect();
         // Never fewer than a model needs, however odd the noise.
-        let enough = gated.iter().filter(|k| **k).count() >= super::LEAST_POSES;
+        let enough = gated.iter().filter(|k| **k).count() >= LEAST_POSES;
         let gated = if enough { gated } else { kept.clone() };
         let settled = gated == kept && close(&noise, &next_noise);
         (model, noise, kept) = (next, next_noise, gated);
@@ -117,7 +121,7 @@ pub(crate) fn robust(pairs: &[Pair], inliers: &[usize], start: &Model) -> Option
             break;
         }
     }
-    // Once more with the samples that were kept last, so that the report belongs to the model.
+    // Once more with the final inliers, so that the report belongs to the model.
     let squared: Vec<f64> = pairs
         .iter()
         .map(|p| model.offset(p).squared(&noise))
@@ -126,7 +130,7 @@ pub(crate) fn robust(pairs: &[Pair], inliers: &[usize], start: &Model) -> Option
     finish(pairs, model, noise, &kept)
 }
 
-fn finish(pairs: &[Pair], model: Model, noise: Scale, kept: &[bool]) -> Option<Fit> {
+fn finish(pairs: &[Pair], model: HandEyeModel, noise: Scale, kept: &[bool]) -> Option<Fit> {
     let squared: Vec<f64> = pairs
         .iter()
         .map(|p| model.offset(p).squared(&noise))
@@ -158,21 +162,21 @@ fn close(a: &Scale, b: &Scale) -> bool {
         && (a.translation_m / b.translation_m).ln().abs() < 1e-6
 }
 
-/// The noise by medians, before anything is weighted: the median of |N(0, σ² I₃)| is 1.538 σ.
-fn first_noise(pairs: &[Pair], kept: &[bool], model: &Model) -> Scale {
-    const MEDIAN_OF_3: f64 = 1.538_172;
+/// The noise by medians, before anything is weighted.
+fn first_noise(pairs: &[Pair], kept: &[bool], model: &HandEyeModel) -> Option<Scale> {
     let size = |part: fn(&Offset) -> f64| {
         let offsets = pairs.iter().zip(kept).filter(|(_, k)| **k);
-        median(offsets.map(|(p, _)| part(&model.offset(p))).collect()) / MEDIAN_OF_3
+        let mut sizes: Vec<f64> = offsets.map(|(p, _)| part(&model.offset(p))).collect();
+        Some(median(&mut sizes)? / MEDIAN_NORM_OF_3)
     };
-    Scale {
-        rotation_rad: size(|o| o.rotation.norm()).max(FLOOR.rotation_rad),
-        translation_m: size(|o| o.translation.norm()).max(FLOOR.translation_m),
-    }
+    Some(Scale {
+        rotation_rad: size(|o| o.rotation.norm())?.max(FLOOR.rotation_rad),
+        translation_m: size(|o| o.translation.norm())?.max(FLOOR.translation_m),
+    })
 }
 
 /// The noise by weighted squares.
-fn noise_of(pairs: &[Pair], weights: &[f64], model: &Model) -> Scale {
+fn noise_of(pairs: &[Pair], weights: &[f64], model: &HandEyeModel) -> Scale {
     let n = weights.iter().filter(|w| **w > 0.0).count() as f64;
     let (mut rotation, mut translation) = (0.0, 0.0);
     for (pair, weight) in pairs.iter().zip(weights) {

@@ -2,6 +2,7 @@ use serde::{Deserialize, Serialize};
 
 /// What depth says about a detector's box.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum Mark {

@@ -69,6 +69,17 @@ impl DepthPatch {
         }
     }
 
+    /// Where it lies in the image.
+    pub(crate) fn window(&self) -> PixelWindow {
+        let (x0, y0) = self.origin;
+        PixelWindow {
+            x0,
+            y0,
+            x1: x0 + self.width,
+            y1: y0 + self.height,
+        }
+    }
+
     /// x/z and y/z of pixel (x, y) of the window.
     #[inline]
     pub(crate) fn ray(&self, x: usize, y: usize) -> (f32, f32) {

@@ -1,7 +1,7 @@
 //! From pixels to rays and back.
 
 use nalgebra::Point3;
-use pomona_cloud::{Camera, Lens};
+use pomona_cloud::{Camera, CameraError, Lens};
 
 /// A camera whose lens has been looked up.
 #[derive(Clone, Copy, Debug)]
@@ -11,10 +11,14 @@ pub(crate) struct Projection<'a> {
 }
 
 impl<'a> Projection<'a> {
-    /// `None` where the camera's distortion cannot be computed with.
-    pub(crate) fn new(camera: &'a Camera) -> Option<Self> {
-        let lens = camera.lens().ok()?;
-        Some(Self { camera, lens })
+    /// Looks up the camera's lens.
+    ///
+    /// # Errors
+    ///
+    /// As [`Camera::lens`], where its distortion cannot be computed with.
+    pub(crate) fn new(camera: &'a Camera) -> Result<Self, CameraError> {
+        let lens = camera.lens()?;
+        Ok(Self { camera, lens })
     }
 
     /// The pixel at which `point` is seen; `None` behind the camera.

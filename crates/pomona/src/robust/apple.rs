@@ -6,9 +6,9 @@ use super::contour::{agreement, grazing_rays};
 use super::sphere::{BoxRays, candidates, support};
 use crate::config::{FruitConfig, RobustConfig};
 use crate::optics::{DepthNoise, DepthPatch, Projection, depth_jump_m};
-use crate::record::{BoxRecord, Status};
+use crate::outcome::Status;
 use nalgebra::{Point3, Unit, Vector3};
-use pomona_cloud::PixelWindow;
+use pomona_cloud::{PixelBox, PixelWindow};
 use pomona_geometry::Sphere;
 use rand_chacha::ChaCha8Rng;
 
@@ -29,7 +29,7 @@ const JUMP_SIGMAS: f64 = 6.0;
 
 /// A fitted apple, and how well it was seen.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Found {
+pub(crate) struct SeenApple {
     pub(crate) fit: BodyFit,
     /// Share of its outline's area on which its surface shows.
     pub(crate) visible_share: f64,
@@ -56,7 +56,7 @@ pub(crate) struct AppleSearch<'a> {
     pub(crate) fruit: &'a FruitConfig,
     pub(crate) projection: &'a Projection<'a>,
     pub(crate) noise: DepthNoise,
-    pub(crate) bounds: &'a BoxRecord,
+    pub(crate) bounds: &'a PixelBox,
     /// The pixels of the box.
     pub(crate) window: PixelWindow,
 }
@@ -67,7 +67,7 @@ impl AppleSearch<'_> {
         &self,
         rng: &mut ChaCha8Rng,
         buffers: &mut AppleBuffers,
-    ) -> Result<Found, Status> {
+    ) -> Result<SeenApple, Status> {
         let (config, noise) = (self.config, self.noise);
         let window = self.window;
         let side = (window.width().max(window.height()) / config.blocks).max(1);
@@ -103,7 +103,7 @@ impl AppleSearch<'_> {
             return Err(Status::ImplausibleRadius);
         }
         let outline = (radius / self.pixel(&fit.body)).powi(2) * std::f64::consts::PI;
-        Ok(Found {
+        Ok(SeenApple {
             fit,
             visible_share: (fit.weight * (side * side) as f64 / outline).min(1.0),
             agreement,

@@ -5,9 +5,9 @@ use super::lines::{Reach, guesses};
 use super::shell::Shell;
 use super::strips::{StripRules, strips};
 use super::walk::{Pace, Slice, walk};
-use crate::RobustConfig;
+use crate::config::RobustConfig;
 use crate::optics::{Projection, depth_jump_m};
-use nalgebra::{Point3, Vector3};
+use nalgebra::{Point3, Unit, Vector3};
 use pomona_geometry::Sphere;
 
 /// What a walk along an axis found, as lengths in metres.
@@ -41,7 +41,7 @@ pub(crate) struct Candidate {
     pub(crate) axis: Axis,
     /// Point of the axis nearest to the apple's centre.
     pub(crate) foot: Point3<f64>,
-    pub(crate) tangent: Vector3<f64>,
+    pub(crate) tangent: Unit<Vector3<f64>>,
     /// Of the foot from the centre.
     pub(crate) distance: f64,
     pub(crate) tally: Tally,

@@ -1,7 +1,8 @@
 //! The surroundings of an apple: a patch of depth in which apples are marked.
 
 use super::body::Body;
-use crate::optics::{DepthNoise, DepthPatch, Projection, window_of};
+use crate::optics::{DepthNoise, DepthPatch, Projection, window_of_sphere};
+use nalgebra::Point3;
 use pomona_cloud::{DepthImage, PixelWindow};
 use pomona_geometry::Sphere;
 
@@ -34,7 +35,7 @@ impl Shell {
         self.patch.fill(
             depth,
             projection,
-            window_of(&around, projection.camera, w, h),
+            window_of_sphere(&around, projection.camera, w, h),
         );
         let (near, far) = (own.center.z - reach, own.center.z + reach);
         self.seen.clear();
@@ -49,6 +50,29 @@ impl Shell {
     pub(crate) fn pixels_of(&self, what: u8) -> Vec<u32> {
         let of = self.seen.iter().enumerate().filter(|(_, s)| **s == what);
         of.map(|(i, _)| self.patch.image_index(i)).collect()
+    }
+
+    /// Number of the readings of `window` that lie on the body's surface.
+    pub(crate) fn surface_count(
+        &self,
+        body: &Body,
+        window: PixelWindow,
+        noise: DepthNoise,
+    ) -> usize {
+        let patch = &self.patch;
+        let sd = noise.sigma(body.center.z);
+        let (x0, y0) = patch.origin;
+        let window = window.intersection(patch.window());
+        let rows = window.y0..window.y1;
+        rows.flat_map(|v| (window.x0..window.x1).map(move |u| (u - x0, v - y0)))
+            .filter(|&(x, y)| {
+                let i = y * patch.width + x;
+                self.seen[i] == APPLE && {
+                    let p = patch.point_at(x, y, patch.z[i]);
+                    body.signed_distance(&p).abs() < surface_band(body, &p, sd)
+                }
+            })
+            .count()
     }
 
     fn mark(
@@ -67,13 +91,8 @@ impl Shell {
         };
         let patch = &self.patch;
         let (x0, y0) = patch.origin;
-        let whole = PixelWindow {
-            x0,
-            y0,
-            x1: x0 + patch.width,
-            y1: y0 + patch.height,
-        };
-        let window = window_of(&around, projection.camera, width, height).intersection(whole);
+        let window = window_of_sphere(&around, projection.camera, width, height)
+            .intersection(patch.window());
         for v in window.y0..window.y1 {
             for u in window.x0..window.x1 {
                 let i = (v - y0) * patch.width + (u - x0);
@@ -91,4 +110,12 @@ impl Shell {
             }
         }
     }
+}
+
+/// Distance from the body's surface, metres, within which a reading `p` with standard deviation `sd` lies on it.
+fn surface_band(body: &Body, p: &Point3<f64>, sd: f64) -> f64 {
+    // Noise lies along the ray: where the surface is seen at a slant it counts for less.
+    let d = p - body.center;
+    let slant = (d.dot(&p.coords) / (d.norm() * p.coords.norm()).max(1e-9)).abs();
+    0.0015 + 2.5 * sd * slant.max(0.25)
 }

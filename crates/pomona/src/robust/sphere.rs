@@ -3,8 +3,8 @@
 use super::blocks::Blocks;
 use crate::config::{Radii, RobustConfig};
 use crate::optics::Projection;
-use crate::record::BoxRecord;
 use nalgebra::Point3;
+use pomona_cloud::PixelBox;
 use pomona_fit::sphere_through;
 use pomona_geometry::Sphere;
 use rand_chacha::ChaCha8Rng;
@@ -27,7 +27,7 @@ pub(crate) struct BoxRays {
 
 impl BoxRays {
     /// `None` where the lens has no ray at a corner, or the box no size.
-    pub(crate) fn new(bounds: &BoxRecord, projection: &Projection<'_>) -> Option<Self> {
+    pub(crate) fn new(bounds: &PixelBox, projection: &Projection<'_>) -> Option<Self> {
         let low = projection.ray(bounds.x_min, bounds.y_min)?;
         let high = projection.ray(bounds.x_max, bounds.y_max)?;
         (low.0 < high.0 && low.1 < high.1).then(|| Self {

@@ -7,7 +7,6 @@
 
 mod answers;
 mod detection;
-mod every_setting;
 mod fallback;
 mod pick;
 mod robot;

@@ -32,7 +32,7 @@ fn frame(path: &Path) -> anyhow::Result<Facts> {
         None => facts.add(
             "boxes",
             serde_json::Value::Null,
-            "none; `pomona pick` needs --boxes FILE",
+            "none; `pomona pick` detects them",
         ),
         Some(boxes) => {
             let mut points = DepthPoints::new();

@@ -80,7 +80,6 @@ mod gripper;
 mod obstacle_map;
 mod obstacles;
 mod order;
-mod outdated;
 mod outline;
 mod path;
 mod planner;
@@ -95,17 +94,15 @@ mod transit;
 
 pub use approach::Approach;
 pub use clearance::{Clearance, Obstacle, Stage};
-pub use config::{
-    ApproachConfig, COMMENTED_DEFAULTS, ClearanceConfig, MotionConfig, ReachConfig, Roll,
-    SearchConfig,
-};
-pub use error::{ConfigError, ReachLimit, Refusal};
+pub use config::{ApproachConfig, ClearanceConfig, MotionConfig, ReachConfig, Roll, SearchConfig};
+pub use error::{ReachLimit, Refusal};
 pub use gripper::Gripper;
 pub use obstacle_map::ObstacleMap;
 pub use order::{Order, Rank, Reason, pick_order};
 pub use path::{Path, PathPoint, PathSegment};
 pub use planner::Planner;
 pub use point_tree::PointTree;
+pub use pomona_settings::ConfigError;
 pub use pose::tool_rotation;
 pub use quintic::{Quintic, State};
 pub use target::{StartPose, Target};

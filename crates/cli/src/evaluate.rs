@@ -5,23 +5,23 @@ mod detection_text;
 mod text;
 
 use crate::output_folder::{OutputFolder, RecordFile};
-use crate::pick_files::PICKS;
+use crate::pick::PICKS;
 use crate::progress;
+use crate::settings::SettingValues;
 use crate::terminal::{self, Terminal};
-use anyhow::bail;
+use anyhow::{anyhow, bail};
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 use pomona::{
-    ApproachConfig, Config, Method, Outcome, PickError, Picker, Record, Robot, RobotFromCamera,
+    ApproachConfig, CheckedFrame, Config, FrameAnswer, Method, PickError, Picker, Robot,
+    RobotFromCamera,
 };
 use pomona_cloud::Frame;
 use pomona_evaluate::{
     CALIPER_SCHEMA, CalibrationNoise, PickMethod, RobotTrial, SCHEMA, Subject, apples_csv,
     caliper_page, evaluate, evaluate_with_robot, measure_calipers, read_calipers, report_page,
 };
-use serde::de::IntoDeserializer;
-use serde::de::value::{Error, StrDeserializer};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use std::path::{Path, PathBuf};
 
 const EXAMPLES: &str = "\
@@ -31,6 +31,7 @@ Examples:
   pomona evaluate orchard@1000 --method paper --method robust --out out
                                                       other scenes: seeds 1000, 1001, ...
   pomona evaluate orchard --count 50 --json --out out | jq '.results[].angle.error.mean'
+  pomona evaluate orchard --set robust.blocks=12 --out out
   pomona evaluate orchard --robot --out out           the gripper in the base frame, after a simulated calibration
   pomona evaluate --calipers calipers.csv frames/a frames/b --out out
   pomona evaluate --detection tiles --out out         the built-in model on images with labels
@@ -61,9 +62,6 @@ pub(crate) struct EvaluateArguments {
     /// A method; may be repeated to compare methods. Default: that of the settings.
     #[arg(long = "method", value_name = "NAME", value_parser = PossibleValuesParser::new(Method::ALL.map(Method::name)))]
     methods: Vec<String>,
-    /// Settings from a TOML file; missing ones keep their defaults (see `pomona config`).
-    #[arg(long, value_name = "FILE")]
-    config: Option<PathBuf>,
     /// Further settings to compare with the methods: a TOML file, named in the result by its file name without
     /// extension; may be repeated.
     #[arg(long = "variant", value_name = "FILE")]
@@ -100,6 +98,8 @@ pub(crate) struct EvaluateArguments {
     json: bool,
     #[command(flatten)]
     detection: detection::DetectionArguments,
+    #[command(flatten)]
+    settings: SettingValues,
 }
 
 pub(crate) fn run(arguments: &EvaluateArguments, terminal: Terminal) -> anyhow::Result<()> {
@@ -125,17 +125,17 @@ impl PickMethod for Named {
         &self.name
     }
 
-    fn answer(&self, frame: &Frame, seed: u64) -> Result<Record, PickError> {
+    fn answer(&self, frame: &CheckedFrame<'_>, seed: u64) -> Result<FrameAnswer, PickError> {
         self.picker.answer(frame, seed)
     }
 
-    fn outcome(
+    fn answer_for_robot(
         &self,
-        frame: &Frame,
+        frame: &CheckedFrame<'_>,
         seed: u64,
         robot_from_camera: &RobotFromCamera,
-    ) -> Result<Outcome, PickError> {
-        self.picker.outcome(frame, seed, robot_from_camera)
+    ) -> Result<FrameAnswer, PickError> {
+        self.picker.answer_for_robot(frame, seed, robot_from_camera)
     }
 }
 
@@ -181,17 +181,14 @@ fn pickers(arguments: &EvaluateArguments) -> anyhow::Result<Vec<Named>> {
 }
 
 fn methods(arguments: &EvaluateArguments) -> anyhow::Result<Vec<Picker>> {
-    let config = match &arguments.config {
-        Some(path) => Config::read(path)?,
-        None => Config::default(),
-    };
+    let config = arguments.settings.config()?;
     if arguments.methods.is_empty() {
         return Ok(vec![Picker::new(config)?]);
     }
     let mut pickers: Vec<Picker> = Vec::new();
     for name in &arguments.methods {
-        let deserializer: StrDeserializer<'_, Error> = name.as_str().into_deserializer();
-        let method = Method::deserialize(deserializer)?;
+        let method = Method::from_name(name)
+            .ok_or_else(|| anyhow!("--method {name}: there is no such method"))?;
         if pickers.iter().any(|p| p.config().method == method) {
             bail!("--method {name} is given twice; give each method once");
         }
@@ -306,7 +303,6 @@ mod tests {
             subjects: vec!["lab15".to_owned()],
             out: PathBuf::new(),
             methods: methods.iter().map(ToString::to_string).collect(),
-            config: None,
             variants: Vec::new(),
             seed: 0,
             count: Some(1),
@@ -317,6 +313,7 @@ mod tests {
             calibration_poses: 15,
             json: false,
             detection: detection::DetectionArguments::default(),
+            settings: SettingValues::default(),
         }
     }
 

@@ -2,11 +2,11 @@ use crate::output_folder::{OutputFolder, RecordFile};
 use crate::summary::plural;
 use crate::terminal::{self, FAINT, GOOD, HEADING, REFUSED, Terminal, one_line};
 use anyhow::{anyhow, bail};
-use pomona::{Record, RobotFromCamera};
+use pomona::{FrameAnswer, RobotFromCamera};
 use pomona_cloud::{CloudFormat, Frame};
 use pomona_fusion::{
     DirectionUse, FusedApple, FusedCloud, FusedRecord, FusedStatus, Fusion, FusionConfig,
-    PosedRecord,
+    PosedAnswer,
 };
 use std::path::{Path, PathBuf};
 
@@ -20,7 +20,7 @@ const POSE: &str = "robot_from_camera.json";
 /// One frame, answered.
 pub(crate) struct FusedInput<'a> {
     pub(crate) folder: &'a Path,
-    pub(crate) record: &'a Record,
+    pub(crate) answer: &'a FrameAnswer,
     pub(crate) pose: &'a RobotFromCamera,
 }
 
@@ -96,11 +96,11 @@ fn pose(folder: &Path, of_all: Option<&RobotFromCamera>) -> anyhow::Result<Robot
 impl Task<'_> {
     /// Fuses, writes and prints.
     pub(crate) fn run(&self, config: &FusionConfig, terminal: Terminal) -> anyhow::Result<()> {
-        let posed: Vec<PosedRecord<'_>> = self
+        let posed: Vec<PosedAnswer<'_>> = self
             .frames
             .iter()
-            .map(|frame| PosedRecord {
-                record: frame.record,
+            .map(|frame| PosedAnswer {
+                answer: frame.answer,
                 robot_from_camera: frame.pose,
             })
             .collect();

@@ -16,7 +16,6 @@ mod image_paths;
 mod inspect;
 mod output_folder;
 mod pick;
-mod pick_files;
 mod picture;
 mod progress;
 mod scenes;

@@ -1,6 +1,7 @@
 use crate::robot::BaseRow;
 use nalgebra::{Point3, Vector3};
-use pomona::{Pick, Status, TimingRecord};
+use pomona::AppleAnswer;
+use pomona::record::StageTimesRecord;
 use pomona_geometry::angle_between;
 use pomona_scenes::AppleTruth;
 use serde::{Deserialize, Serialize};
@@ -86,27 +87,27 @@ pub struct AppleRow {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub base: Option<BaseRow>,
     /// Milliseconds of each stage.
-    pub timing_ms: Option<TimingRecord>,
+    pub timing_ms: Option<StageTimesRecord>,
 }
 
 impl AppleRow {
-    /// Compares one apple's truth with its pick.
+    /// Compares one apple's truth with its answer.
     pub(crate) fn new(
         suite: &str,
         case: &str,
         case_number: usize,
         method: &str,
         truth: &AppleTruth,
-        pick: Option<&Pick>,
+        answer: Option<&AppleAnswer>,
     ) -> Self {
         let true_center = Point3::from(truth.center);
-        let apple = pick.and_then(|p| p.apple.as_ref());
-        let offset = apple.map(|a| Point3::from(a.center) - true_center);
-        let picked = pick.filter(|p| p.status == Status::Picked);
-        let direction = picked.and_then(|p| p.direction);
-        let foot = picked.and_then(|p| p.foot);
+        let apple = answer.and_then(|a| a.apple);
+        let center = apple.map(|a| a.center.point());
+        let offset = center.map(|center| center - true_center);
+        let pick = answer.and_then(|a| a.pick);
+        let direction = pick.map(|p| p.direction.vector());
+        let foot = pick.map(|p| p.foot.point());
         let branch = truth.branch.as_ref();
-        let angle = |a: [f64; 3], b: [f64; 3]| angle_between(&Vector3::from(a), &Vector3::from(b));
         Self {
             suite: suite.to_owned(),
             case: case.to_owned(),
@@ -114,22 +115,22 @@ impl AppleRow {
             apple: truth.bounds.name.clone(),
             method: method.to_owned(),
             target: truth.target.unwrap_or(true),
-            status: pick.map_or(NO_BOX, |p| p.status.name()).to_owned(),
+            status: answer.map_or(NO_BOX, |a| a.status.name()).to_owned(),
             angle_error: direction
                 .zip(truth.direction)
-                .and_then(|(a, b)| angle(a, b)),
+                .and_then(|(given, right)| angle_between(&given, &Vector3::from(right))),
             center_error: offset.map(|o| o.norm()),
             center_offset: offset.map(Into::into),
-            radius_error: apple.map(|a| a.radius - truth.radius),
+            radius_error: apple.map(|a| a.radius_m - truth.radius),
             foot_error: foot
                 .zip(branch)
-                .map(|(foot, b)| (Point3::from(foot) - Point3::from(b.point)).norm()),
-            radius: apple.map(|a| a.radius),
-            center: apple.map(|a| a.center),
-            foot,
-            direction,
-            confidence: pick.and_then(|p| p.confidence),
-            direction_sd: picked.and_then(|p| p.direction_sd),
+                .map(|(foot, b)| (foot - Point3::from(b.point)).norm()),
+            radius: apple.map(|a| a.radius_m),
+            center: center.map(Into::into),
+            foot: foot.map(Into::into),
+            direction: direction.map(Into::into),
+            confidence: answer.and_then(|a| a.confidence),
+            direction_sd: pick.and_then(|p| p.sd_rad),
             true_center: truth.center,
             true_radius: truth.radius,
             true_direction: truth.direction,
@@ -140,7 +141,7 @@ impl AppleRow {
             leaves: truth.leaves.map(|n| n as f64),
             answerable: answerable(truth),
             base: None,
-            timing_ms: pick.map(|p| p.timing_ms),
+            timing_ms: answer.map(|a| StageTimesRecord::from(&a.times)),
         }
     }
 
@@ -194,6 +195,8 @@ fn answerable(truth: &AppleTruth) -> Option<bool> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use pomona::{FittedApple, PickDirection, Status};
+    use pomona_transforms::{Direction, Position};
     use serde_json::json;
 
     fn truth(visible_length: f64, visible_share: f64) -> AppleTruth {
@@ -207,19 +210,20 @@ mod tests {
         .unwrap()
     }
 
-    fn pick() -> Pick {
-        serde_json::from_value(json!({
-            "id": 0, "box": truth(0.1, 1.0).bounds, "status": "picked",
-            "apple": {"center": [0.0, 0.003, 0.804], "radius": 0.041, "inliers": 9, "rms": 0.0},
-            "foot": [0.05, 0.0, 0.8], "direction": [1.0, 0.0, 0.0],
-            "timing_ms": {"crop": 0.0, "sphere": 1.0, "branch": 2.0, "total": 3.0}
-        }))
-        .unwrap()
+    fn answer() -> AppleAnswer {
+        let center = Position::new(Point3::new(0.0, 0.003, 0.804));
+        let mut answer = AppleAnswer::new(0, truth(0.1, 1.0).bounds, Status::Picked);
+        answer.apple = Some(FittedApple::new(center, 0.041, 9, 0.0));
+        let along_x = Direction::new(Vector3::x()).unwrap();
+        let mut pick = PickDirection::new(&center, center.moved(&along_x, 0.05)).unwrap();
+        pick.foot = Position::new(Point3::new(0.05, 0.0, 0.8));
+        answer.pick = Some(pick);
+        answer
     }
 
     #[test]
     fn errors_are_against_the_truth() {
-        let row = AppleRow::new("s", "c", 0, "m", &truth(0.1, 1.0), Some(&pick()));
+        let row = AppleRow::new("s", "c", 0, "m", &truth(0.1, 1.0), Some(&answer()));
         assert!((row.angle_error.unwrap() - std::f64::consts::FRAC_PI_2).abs() < 1e-12);
         assert!((row.center_error.unwrap() - 0.005).abs() < 1e-12);
         assert!((row.radius_error.unwrap() - 0.001).abs() < 1e-12);
@@ -230,10 +234,8 @@ mod tests {
 
     #[test]
     fn a_refusal_keeps_its_sphere_and_has_no_direction() {
-        let refused = Pick {
-            status: Status::NoBranch,
-            ..pick()
-        };
+        let mut refused = answer();
+        (refused.status, refused.pick) = (Status::NoBranch, None);
         let row = AppleRow::new("s", "c", 0, "m", &truth(0.1, 1.0), Some(&refused));
         assert!(row.center_error.is_some() && row.angle_error.is_none() && !row.is_answered());
         assert_eq!(

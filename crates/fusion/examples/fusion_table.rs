@@ -5,9 +5,9 @@
 #[path = "../tests/fusion/orchard_views.rs"]
 mod orchard_views;
 
-use nalgebra::{Point3, Vector3};
+use nalgebra::Vector3;
 use orchard_views::{Views, views};
-use pomona_fusion::{FusedApple, FusionConfig, PosedRecord, fuse};
+use pomona_fusion::{FusedApple, FusionConfig, PosedAnswer, fuse};
 
 /// Errors of the apples that several frames show.
 #[derive(Default)]
@@ -63,11 +63,11 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut split = 0;
     for seed in first..first + scenes {
         let views = views(seed);
-        let posed: Vec<PosedRecord<'_>> = views
+        let posed: Vec<PosedAnswer<'_>> = views
             .frames
             .iter()
-            .map(|(record, robot_from_camera)| PosedRecord {
-                record,
+            .map(|(answer, robot_from_camera)| PosedAnswer {
+                answer,
                 robot_from_camera,
             })
             .collect();
@@ -84,10 +84,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                     apple.reason
                 );
                 for s in &apple.sightings {
-                    let own = views.frames[s.frame].0.picks[s.pick].apple.as_ref();
-                    let radius = own.map_or(0.0, |a| a.radius);
+                    let own = views.frames[s.frame].0.apples[s.pick].apple.as_ref();
+                    let radius = own.map_or(0.0, |a| a.radius_m);
                     let visible = own.and_then(|a| a.visible_share).unwrap_or(0.0);
-                    let sd = own.and_then(|a| a.radius_sd).unwrap_or(0.0);
+                    let sd = own.and_then(|a| a.radius_sd_m).unwrap_or(0.0);
                     println!(
                         "  frame {}: radius {radius:.4} ± {sd:.4}, visible {visible:.2}",
                         s.frame
@@ -106,13 +106,13 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             shared += 1;
             fused.add(&views, truth, Vector3::from(apple.center), apple.direction);
             for s in &apple.sightings {
-                let (record, pose) = &views.frames[s.frame];
-                let pick = &record.picks[s.pick];
-                let Some(own) = &pick.apple else { continue };
-                let center = pose.transform.isometry() * Point3::from(own.center);
-                let direction = pick
-                    .direction
-                    .map(|d| (pose.transform.rotation() * Vector3::from(d)).into());
+                let (answer, pose) = &views.frames[s.frame];
+                let own = &answer.apples[s.pick];
+                let Some(apple) = &own.apple else { continue };
+                let center = pose.transform.position(&apple.center).point();
+                let direction = own
+                    .pick
+                    .map(|pick| pose.transform.direction(&pick.direction).vector().into());
                 single.add(&views, truth, center.coords, direction);
             }
         }

@@ -6,13 +6,14 @@ use crate::joint::{Joint, Track, middle_of, squared_distance};
 use crate::record::{FUSED_SCHEMA, FusedFrame, FusedRecord, ShiftRecord};
 use crate::sighting::Sighting;
 use nalgebra::{Isometry3, Matrix3, Matrix6, UnitQuaternion, Vector3};
-use pomona::{FusionConfig, Record, RobotFromCamera};
+use pomona::{FrameAnswer, FusionConfig, RobotFromCamera};
+use pomona_transforms::{CameraFrame, Position};
 
 /// The answers for one frame and where its camera stood.
 #[derive(Clone, Copy, Debug)]
-pub struct PosedRecord<'a> {
+pub struct PosedAnswer<'a> {
     /// The answers, in the camera's frame.
-    pub record: &'a Record,
+    pub answer: &'a FrameAnswer,
     /// The camera's pose when the frame was taken, with its covariance where that is known.
     pub robot_from_camera: &'a RobotFromCamera,
 }
@@ -39,20 +40,20 @@ pub struct Fusion {
 /// Poses that are all one and the same are taken for a camera at rest: their stated error is common to all frames, adds
 /// to the covariance of each apple, and explains no shift. Any other poses are taken for independent.
 ///
-/// The same records and poses give the same bytes.
+/// The same answers and poses give the same bytes.
 ///
 /// # Errors
 ///
 /// [`FusionError`]: fewer than two frames, poses that do not belong to the frames or lead to different robots,
 /// a frame given twice, numbers that cannot be calculated with. Frames without any apple are none.
-pub fn fuse(frames: &[PosedRecord<'_>], config: &FusionConfig) -> Result<Fusion, FusionError> {
+pub fn fuse(frames: &[PosedAnswer<'_>], config: &FusionConfig) -> Result<Fusion, FusionError> {
     config.validate()?;
     check(frames)?;
     let mut sightings = Vec::new();
     for (k, frame) in frames.iter().enumerate() {
-        let of_frame = frame.record.picks.iter();
+        let of_frame = frame.answer.apples.iter();
         sightings.extend(
-            of_frame.filter_map(|pick| Sighting::new(k, pick, frame.robot_from_camera, config)),
+            of_frame.filter_map(|apple| Sighting::new(k, apple, frame.robot_from_camera, config)),
         );
     }
     let middle = middle_of(&sightings);
@@ -95,7 +96,7 @@ pub fn fuse(frames: &[PosedRecord<'_>], config: &FusionConfig) -> Result<Fusion,
         schema: FUSED_SCHEMA.to_owned(),
         frame_id: frames[0].robot_from_camera.to.clone(),
         frames: (0..frames.len())
-            .map(|k| shifts.frame(k, frames[k].record))
+            .map(|k| shifts.frame(k, frames[k].answer))
             .collect(),
         apples: apples.all(),
     };
@@ -108,23 +109,23 @@ pub fn fuse(frames: &[PosedRecord<'_>], config: &FusionConfig) -> Result<Fusion,
     })
 }
 
-fn check(frames: &[PosedRecord<'_>]) -> Result<(), FusionError> {
+fn check(frames: &[PosedAnswer<'_>]) -> Result<(), FusionError> {
     if frames.len() < 2 {
         return Err(FusionError::TooFew {
             count: frames.len(),
         });
     }
     for (k, frame) in frames.iter().enumerate() {
-        let (of, pose) = (&frame.record.frame, frame.robot_from_camera);
-        if pose.from != of.frame_id {
+        let (of, pose) = (frame.answer, frame.robot_from_camera);
+        if pose.from != of.camera_frame_id {
             return Err(FusionError::WrongPose {
                 frame: of.id.clone(),
-                camera: of.frame_id.clone(),
+                camera: of.camera_frame_id.clone(),
                 from: pose.from.clone(),
             });
         }
         for earlier in &frames[..k] {
-            let before = &earlier.record.frame;
+            let before = earlier.answer;
             if earlier.robot_from_camera.to != pose.to {
                 return Err(FusionError::DifferentRobots {
                     first: before.id.clone(),
@@ -133,7 +134,7 @@ fn check(frames: &[PosedRecord<'_>]) -> Result<(), FusionError> {
                     second_to: pose.to.clone(),
                 });
             }
-            if before.id == of.id || same_apples(earlier.record, frame.record) {
+            if before.id == of.id || same_apples(before, of) {
                 return Err(FusionError::SameFrame {
                     first: before.id.clone(),
                     second: of.id.clone(),
@@ -145,11 +146,11 @@ fn check(frames: &[PosedRecord<'_>]) -> Result<(), FusionError> {
 }
 
 /// Noise never repeats all centres to the last digit.
-fn same_apples(a: &Record, b: &Record) -> bool {
-    let centers = |r: &Record| -> Vec<[f64; 3]> {
-        r.picks
-            .iter()
-            .filter_map(|p| Some(p.apple.as_ref()?.center))
+fn same_apples(a: &FrameAnswer, b: &FrameAnswer) -> bool {
+    let centers = |answer: &FrameAnswer| -> Vec<Position<CameraFrame>> {
+        let apples = answer.apples.iter();
+        apples
+            .filter_map(|a| Some(a.apple.as_ref()?.center))
             .collect()
     };
     let (a, b) = (centers(a), centers(b));
@@ -200,7 +201,7 @@ struct Shifts<'a> {
 }
 
 impl Shifts<'_> {
-    fn frame(&self, k: usize, record: &Record) -> FusedFrame {
+    fn frame(&self, k: usize, answer: &FrameAnswer) -> FusedFrame {
         let own = |&i: &usize| self.sightings[i].frame == k;
         let shared = self
             .tracks
@@ -221,8 +222,8 @@ impl Shifts<'_> {
             }
         });
         FusedFrame {
-            id: record.frame.id.clone(),
-            frame_id: record.frame.frame_id.clone(),
+            id: answer.id.clone(),
+            frame_id: answer.camera_frame_id.clone(),
             apples: self.sightings.iter().filter(|s| s.frame == k).count(),
             shared,
             shift,

@@ -2,8 +2,8 @@
 //!
 //! ```
 //! use nalgebra::Isometry3;
-//! use pomona::{Config, Picker, RobotFromCamera};
-//! use pomona_fusion::{FusionConfig, PosedRecord, fuse};
+//! use pomona::{CheckedFrame, Config, Picker, RobotFromCamera};
+//! use pomona_fusion::{FusionConfig, PosedAnswer, fuse};
 //! use pomona_scenes::{Axis, Lab, Orientation, Sensor, Shot};
 //! use pomona_transforms::Transform;
 //!
@@ -17,12 +17,13 @@
 //!     let shot = Shot::new(id, camera.clone(), Sensor::paper(), 1).take(&seen);
 //!     let pose = Transform::from_quaternion([x, 0.0, 0.0], [0.0, 0.0, 0.0, 1.0])?;
 //!     let pose = RobotFromCamera::new(pose, "base", camera.frame_id.clone());
-//!     frames.push((picker.pick(&shot.frame, 0, Some(&pose))?.record, pose));
+//!     let frame = CheckedFrame::new(&shot.frame)?;
+//!     frames.push((picker.pick(&frame, 0, Some(&pose))?, pose));
 //! }
 //!
-//! let posed: Vec<PosedRecord> = frames
+//! let posed: Vec<PosedAnswer> = frames
 //!     .iter()
-//!     .map(|(record, robot_from_camera)| PosedRecord { record, robot_from_camera })
+//!     .map(|(answer, robot_from_camera)| PosedAnswer { answer, robot_from_camera })
 //!     .collect();
 //! let fusion = fuse(&posed, &FusionConfig::default())?;
 //! assert_eq!(fusion.record.apples.len(), 1);
@@ -43,7 +44,7 @@ mod sighting;
 
 pub use cloud::FusedCloud;
 pub use error::FusionError;
-pub use fuse::{Fusion, PosedRecord, fuse};
+pub use fuse::{Fusion, PosedAnswer, fuse};
 pub use pomona::FusionConfig;
 pub use record::{
     DirectionUse, FUSED_SCHEMA, FusedApple, FusedFrame, FusedRecord, FusedStatus, MovedRecord,

@@ -1,8 +1,7 @@
 //! One apple as one frame shows it, in the robot's frame.
 
-use nalgebra::{Matrix3, Point3, UnitVector3, Vector3};
-use pomona::{FusionConfig, Pick, RobotFromCamera, Status};
-use pomona_transforms::{CameraFrame, Direction, Position};
+use nalgebra::{Matrix3, UnitVector3, Vector3};
+use pomona::{AppleAnswer, FusionConfig, PickDirection, RobotFromCamera, Status};
 
 /// One apple as one frame shows it.
 #[derive(Clone, Debug)]
@@ -33,72 +32,65 @@ pub(crate) struct DirectionSighting {
 }
 
 impl Sighting {
-    /// `None` where the pick has no apple, or one whose numbers are none.
+    /// `None` where the answer has no apple, or one whose numbers are none.
     pub(crate) fn new(
         frame: usize,
-        pick: &Pick,
+        answer: &AppleAnswer,
         pose: &RobotFromCamera,
         config: &FusionConfig,
     ) -> Option<Self> {
-        let apple = pick.apple.as_ref()?;
-        let place = Position::<CameraFrame>::new(Point3::from(apple.center));
-        let center = pose.transform.position(&place).point().coords;
-        if !center.iter().all(|c| c.is_finite()) || !(apple.radius > 0.0) {
+        let apple = answer.apple.as_ref()?;
+        let transform = &pose.transform;
+        let center = transform.position(&apple.center).point().coords;
+        if !center.iter().all(|c| c.is_finite()) || !(apple.radius_m > 0.0) {
             return None;
         }
         let own = apple.center_covariance.map_or_else(
             || Matrix3::identity() * config.center_sd_m.powi(2),
-            Matrix3::from,
+            |own| own.rotated(transform).matrix_m2(),
         );
         // The least that keeps it invertible is a hundredth of a millimetre.
         let floor = config.center_floor_m.max(1e-5);
-        let rotation = pose.transform.rotation().to_rotation_matrix().into_inner();
-        let turned = rotation * own * rotation.transpose();
-        let covariance = (turned + turned.transpose()) * 0.5 + Matrix3::identity() * floor.powi(2);
+        let covariance = own + Matrix3::identity() * floor.powi(2);
         covariance.cholesky()?;
-        let sd = apple.radius_sd.unwrap_or(config.center_sd_m);
-        let turn =
-            |v: [f64; 3]| Direction::new(Vector3::from(v)).map(|d| pose.transform.direction(&d));
-        let direction = pick
-            .direction
-            .filter(|_| pick.status == Status::Picked)
-            .and_then(turn)
-            .map(|d| {
-                let unit = d.unit();
-                DirectionSighting {
-                    unit,
-                    sd: direction_sd(pick, &unit, pose, config),
-                    confidence: pick
-                        .confidence
-                        .unwrap_or(config.confidence)
-                        .clamp(0.001, 0.999),
-                }
-            });
-        let foot = pick.foot.filter(|_| direction.is_some());
+        let sd = apple.radius_sd_m.unwrap_or(config.center_sd_m);
+        let direction = answer.pick.map(|pick| {
+            let unit = transform.direction(&pick.direction).unit();
+            DirectionSighting {
+                unit,
+                sd: direction_sd(&pick, &unit, pose, config),
+                confidence: answer
+                    .confidence
+                    .unwrap_or(config.confidence)
+                    .clamp(0.001, 0.999),
+            }
+        });
         Some(Self {
             frame,
-            pick: pick.id,
-            status: pick.status,
+            pick: answer.id,
+            status: answer.status,
             center,
             covariance,
-            radius: apple.radius,
+            radius: apple.radius_m,
             visible_share: apple.visible_share.unwrap_or(1.0),
             radius_variance: sd.powi(2) + config.radius_floor_m.max(1e-5).powi(2),
             direction,
-            foot_distance: foot.map(|f| (Vector3::from(f) - Vector3::from(apple.center)).norm()),
-            view_from: pick.view_from.and_then(turn).map(|d| d.vector()),
+            foot_distance: answer.pick.map(|pick| pick.foot.distance(&apple.center)),
+            view_from: answer
+                .view_from
+                .map(|direction| transform.direction(&direction).vector()),
         })
     }
 }
 
 /// The direction's own error, the floor, and the pose's across it.
 fn direction_sd(
-    pick: &Pick,
+    pick: &PickDirection,
     unit: &UnitVector3<f64>,
     pose: &RobotFromCamera,
     config: &FusionConfig,
 ) -> f64 {
-    let own = pick.direction_sd.unwrap_or(config.direction_sd_rad);
+    let own = pick.sd_rad.unwrap_or(config.direction_sd_rad);
     let omega = pose.uncertain().rotation_covariance_rad2();
     let along = unit.dot(&(omega * unit.into_inner()));
     let across = (0.5 * (omega.trace() - along)).max(0.0);

@@ -1,7 +1,7 @@
 //! A robot's plan for a frame as other programs read it: messages of ROS 2 and `MoveIt`, and MCAP recordings.
 //!
 //! ```
-//! use pomona::{ApproachConfig, Config, Picker, Robot, RobotFromCamera};
+//! use pomona::{ApproachConfig, CheckedFrame, Config, Picker, Robot, RobotFromCamera};
 //! use pomona_messages::ros;
 //! use pomona_scenes::Suite;
 //! use pomona_transforms::Transform;
@@ -13,9 +13,10 @@
 //! let robot_from_camera = RobotFromCamera::new(pose, "base_link", frame.camera.frame_id.clone());
 //!
 //! let picker = Picker::new(Config::default())?;
-//! let mut outcome = picker.pick(&frame, 0, Some(&robot_from_camera))?;
+//! let frame = CheckedFrame::new(&frame)?;
+//! let mut answer = picker.pick(&frame, 0, Some(&robot_from_camera))?;
 //! let robot = Robot::new(ApproachConfig::default())?;
-//! let plan = robot.plan(&frame, &mut outcome, &robot_from_camera)?;
+//! let plan = robot.plan(&frame, &mut answer, &robot_from_camera);
 //!
 //! let files = ros::files(&plan, robot.config());
 //! assert_eq!(files[1].name, "ros-scene.yaml");

@@ -18,8 +18,7 @@ mod schemas;
 use crate::ros;
 use mcap::records::MessageHeader;
 use mcap::{WriteOptions, Writer};
-use pomona::{Outcome, PickError, Robot, RobotFromCamera, RobotPlan};
-use pomona_cloud::Frame;
+use pomona::{CheckedFrame, Robot, RobotFromCamera, RobotPlan};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::io::Cursor;
@@ -32,9 +31,6 @@ pub enum RecordingError {
     /// The writer refused.
     #[error("the recording cannot be written: {0}")]
     Mcap(#[from] mcap::McapError),
-    /// The frame contradicts itself.
-    #[error(transparent)]
-    Frame(#[from] PickError),
     /// A message is no JSON.
     #[error("a message of the recording cannot be written: {0}")]
     Json(#[from] serde_json::Error),
@@ -80,11 +76,9 @@ impl<'a> Topic<'a> {
 ///
 /// # Errors
 ///
-/// [`RecordingError::Frame`] where the depth image contradicts the camera; the others do not occur on
-/// a healthy machine.
+/// [`RecordingError`]; none occurs on a healthy machine.
 pub fn record(
-    frame: &Frame,
-    outcome: &Outcome,
+    frame: &CheckedFrame<'_>,
     plan: &RobotPlan,
     robot: &Robot,
     robot_from_camera: &RobotFromCamera,
@@ -93,9 +87,9 @@ pub fn record(
     let mut writer = options.create(Cursor::new(Vec::new()))?;
 
     let mut cloud = Topic::new(&mut writer, "/cloud", schemas::point_cloud())?;
-    cloud.write(0, &messages::cloud(frame)?)?;
+    cloud.write(0, &messages::cloud(frame))?;
 
-    let camera_id = &outcome.record.frame.frame_id;
+    let camera_id = &frame.frame().camera.frame_id;
     let camera = robot_from_camera.transform.isometry();
     let mut tf = Topic::new(&mut writer, "/tf", schemas::frame_transform())?;
     tf.write(

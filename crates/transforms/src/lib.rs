@@ -78,6 +78,7 @@ mod json;
 mod matrix;
 mod named;
 mod position;
+mod position_covariance;
 mod quaternion;
 mod schema;
 mod tool;
@@ -93,6 +94,8 @@ pub use frame::{CameraFrame, FlangeFrame, FrameTag, RobotFrame, TargetFrame, Too
 pub use named::NamedTransform;
 pub use pomona_files::FileError;
 pub use position::Position;
+pub use position_covariance::PositionCovariance;
+pub use quaternion::canonical_xyzw;
 pub use schema::{MAX_TRANSLATION_M, SCHEMA};
 pub use tool::{SINGULAR_ANGLE_RAD, ToolOrientation, paper_as_printed_euler};
 pub use tool_model::{ToolModel, UNKNOWN_ANGLE_SIGMA_RAD, UncertainToolOrientation};

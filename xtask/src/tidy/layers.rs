@@ -7,9 +7,11 @@ use std::fs;
 /// The layers from the bottom up. A crate may depend on crates of lower layers.
 const LAYERS: &[&[&str]] = &[
     &[
-        "pomona-files",
-        "pomona-geometry",
         "pomona-ransac",
+        "pomona-geometry",
+        "pomona-schema",
+        "pomona-settings",
+        "pomona-files",
         "pomona-statistics",
     ],
     &[

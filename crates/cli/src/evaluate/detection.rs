@@ -28,7 +28,7 @@ const SHEET_SIDE: usize = 416;
 pub(super) struct DetectionArguments {
     /// Measure detectors on labelled images: a folder of images with YOLO or VOC labels, a COCO file or its folder, a
     /// frame with boxes, or a folder of frames.
-    #[arg(long, value_name = "FOLDER", help_heading = HEADING, conflicts_with_all = ["subjects", "methods", "variants", "config", "calipers"])]
+    #[arg(long, value_name = "FOLDER", help_heading = HEADING, conflicts_with_all = ["subjects", "methods", "variants", "SettingValues", "calipers"])]
     pub(super) detection: Option<PathBuf>,
     /// A model to measure (ONNX), or `built-in`; may be repeated. Default: built-in, unless --boxes are given.
     #[arg(long = "model", value_name = "FILE", value_parser = parse_model, requires = "detection", help_heading = HEADING)]

@@ -2,7 +2,7 @@ use super::camera::add_camera;
 use super::document;
 use super::facts::Facts;
 use super::image::add_fill;
-use crate::pick_files::PICKS;
+use crate::pick::PICKS;
 use crate::summary::plural;
 use pomona_cloud::{DepthPoints, Frame, read_tum};
 use pomona_scenes::{TRUTH_FILE, Truth};

@@ -2,7 +2,8 @@
 
 use crate::binary::pomona;
 use crate::scene::{Bench, frame};
-use pomona::{Config, Mark, Picker, find_apples};
+use pomona::record::PicksRecord;
+use pomona::{CheckedFrame, Config, Mark, Picker, find_apples};
 use pomona_cloud::ColorImage;
 use pomona_detect::{DetectError, Detection, Detector, DetectorReport};
 use serde_json::{Value, json};
@@ -151,10 +152,11 @@ fn picks_of_detected_boxes() {
     };
     let mut config = Config::default();
     config.detection.depth_search = true;
+    let frame = CheckedFrame::new(&frame).unwrap();
     let found = find_apples(&frame, &detector, &config).unwrap();
     let picker = Picker::new(config).unwrap();
-    let outcome = picker.pick_found(&frame, &found, 0, None).unwrap();
-    let picks = serde_json::to_value(&outcome.record).unwrap();
+    let answer = picker.pick_detected(&frame, &found, 0, None).unwrap();
+    let picks = serde_json::to_value(PicksRecord::from(&answer)).unwrap();
     schema.accepts(&picks);
     assert_eq!(picks["picks"][0]["box"]["mark"], "plausible");
     for mark in Mark::ALL {

@@ -1,4 +1,4 @@
-use pomona::{Config, PickError, find_apples};
+use pomona::{CheckedFrame, Config, DetectedApples, PickError, find_apples};
 use pomona_cloud::{ColorImage, Frame};
 use pomona_detect::{DetectError, Detection, Detector, DetectorReport};
 
@@ -27,6 +27,7 @@ pub(crate) fn find(
     frame: &Frame,
     detections: Vec<Detection>,
     config: &Config,
-) -> Result<pomona::Found, PickError> {
-    find_apples(frame, &FixedDetector { detections }, config)
+) -> Result<DetectedApples, PickError> {
+    let frame = CheckedFrame::new(frame)?;
+    find_apples(&frame, &FixedDetector { detections }, config)
 }

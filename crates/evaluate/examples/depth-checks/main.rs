@@ -80,7 +80,7 @@ fn list(frame: &Frame, config: &Config) -> Result<(), Box<dyn Error>> {
         let sphere = found.sphere.map_or_else(String::new, |s| {
             format!("r {:.1} mm at {:.3} m", s.radius * 1e3, s.center.z)
         });
-        println!("  {name:<10} {:<10} {sphere}", found.found.mark.name());
+        println!("  {name:<10} {:<10} {sphere}", found.origin.mark.name());
     }
     Ok(())
 }

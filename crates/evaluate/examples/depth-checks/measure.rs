@@ -170,7 +170,7 @@ fn of_frame(
         let found = find(shown, made.iter().map(|m| m.detection).collect(), &single)?;
         let before: usize = result.marks.values().map(|m| m.boxes).sum();
         let (old, new) = (before as f64, made.len() as f64);
-        let ms = found.record.timing_ms.depth_check / new;
+        let ms = 1e3 * found.summary.times.depth_check.as_secs_f64() / new;
         result.box_ms = (result.box_ms * old + ms * new) / (old + new);
         for found in &found.boxes {
             let Some(Made { group, .. }) = found
@@ -183,7 +183,7 @@ fn of_frame(
                 continue;
             };
             let counts = result.marks.entry((*group).to_owned()).or_default();
-            counts.add(found.found.mark);
+            counts.add(found.origin.mark);
         }
     }
     result.merging = splits::measure(frame, apples, config, seed)?;

@@ -61,14 +61,20 @@ pub(crate) fn measure(
     let found = find(frame, shown, &config)?;
     let mut counts = SearchCounts {
         withheld: withheld.len(),
-        total_ms: found.record.timing_ms.depth_search.unwrap_or(0.0),
+        total_ms: found
+            .summary
+            .times
+            .depth_search
+            .unwrap_or_default()
+            .as_secs_f64()
+            * 1e3,
         ..SearchCounts::default()
     };
     let mut got = vec![false; withheld.len()];
     let finds = found
         .boxes
         .iter()
-        .filter(|b| b.found.found_by == FoundBy::Depth);
+        .filter(|b| b.origin.found_by == FoundBy::Depth);
     for sphere in finds.filter_map(|b| b.sphere) {
         let hit = withheld.iter().position(|apple| {
             (sphere.center - nalgebra::Point3::from(apple.center)).norm()

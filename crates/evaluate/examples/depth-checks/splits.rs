@@ -60,8 +60,8 @@ pub(crate) fn measure(
     let mut draw = Draw::new(seed, 101);
     let whole = apples.iter().map(|a| jittered(&a.bounds, &mut draw));
     let found = find(frame, whole.collect(), &config)?;
-    counts.wrongly_merged = found.record.merged;
-    let of_another = |b: &&pomona::FoundBox| b.found.mark == Mark::OfAnother;
+    counts.wrongly_merged = found.summary.merged;
+    let of_another = |b: &&pomona::DetectedBox| b.origin.mark == Mark::OfAnother;
     counts.wrongly_of_another = found.boxes.iter().filter(of_another).count();
 
     let chosen: Vec<&AppleTruth> = apples
@@ -84,10 +84,10 @@ pub(crate) fn measure(
             .collect();
         let joint = mine
             .iter()
-            .any(|b| b.found.merged.is_some() && of_box(&b.bounds).iou(&whole) >= RIGHT_IOU);
+            .any(|b| b.origin.merged > 1 && of_box(&b.bounds).iou(&whole) >= RIGHT_IOU);
         if joint {
             counts.rightly_merged += 1;
-        } else if mine.iter().filter(|b| !b.found.mark.refuses()).count() <= 1 {
+        } else if mine.iter().filter(|b| !b.origin.mark.refuses()).count() <= 1 {
             counts.left_with_one += 1;
         }
     }

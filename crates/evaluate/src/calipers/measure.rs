@@ -2,7 +2,7 @@ use super::alignment::Alignment;
 use super::table::Caliper;
 use crate::error::EvaluateError;
 use crate::method::PickMethod;
-use pomona::{Pick, Record};
+use pomona::{AppleAnswer, CheckedFrame, FrameAnswer};
 use pomona_cloud::Frame;
 use pomona_statistics::Summary;
 use rayon::prelude::*;
@@ -87,11 +87,11 @@ pub fn measure_calipers(
     seed: u64,
 ) -> Result<CaliperReport, EvaluateError> {
     let results = methods.iter().map(|method| {
-        let records: Vec<Record> = frames
+        let answers: Vec<FrameAnswer> = frames
             .par_iter()
-            .map(|frame| method.answer(frame, seed))
+            .map(|frame| method.answer(&CheckedFrame::new(frame)?, seed))
             .collect::<Result<_, _>>()?;
-        Ok(CaliperResult::of(method.name(), &records, calipers))
+        Ok(CaliperResult::of(method.name(), &answers, calipers))
     });
     Ok(CaliperReport {
         schema: CALIPER_SCHEMA.to_owned(),
@@ -101,34 +101,34 @@ pub fn measure_calipers(
 }
 
 impl CaliperResult {
-    fn of(method: &str, records: &[Record], calipers: &[Caliper]) -> Self {
+    fn of(method: &str, answers: &[FrameAnswer], calipers: &[Caliper]) -> Self {
         let mut apples = Vec::new();
         let mut errors = Vec::new();
         for (number, caliper) in calipers.iter().enumerate() {
-            for record in records {
-                let own = record
-                    .picks
+            for answer in answers {
+                let own = answer
+                    .apples
                     .iter()
-                    .filter(|p| p.pixel_box.name == caliper.box_name);
-                for pick in own {
-                    let row = CaliperRow::of(&record.frame.id, caliper, pick);
+                    .filter(|a| a.bounds.name == caliper.box_name);
+                for apple in own {
+                    let row = CaliperRow::of(&answer.id, caliper, apple);
                     errors.extend(row.radius_error.map(|error| (number, error)));
                     apples.push(row);
                 }
             }
         }
         let absolute: Vec<_> = errors.iter().map(|&(n, e)| (n, e.abs())).collect();
-        let pairs = records
+        let pairs = answers
             .iter()
             .enumerate()
-            .flat_map(|(i, a)| records[i + 1..].iter().map(move |b| (a, b)));
+            .flat_map(|(i, a)| answers[i + 1..].iter().map(move |b| (a, b)));
         Self {
             method: method.to_owned(),
             radius_error: Summary::of(&errors),
             radius_error_absolute: Summary::of(&absolute),
-            frames: records
+            frames: answers
                 .iter()
-                .map(|record| CaliperFrame::of(record, &apples))
+                .map(|answer| CaliperFrame::of(answer, &apples))
                 .collect(),
             alignments: pairs.map(|(a, b)| Alignment::of(a, b)).collect(),
             apples,
@@ -137,23 +137,20 @@ impl CaliperResult {
 }
 
 impl CaliperFrame {
-    fn of(record: &Record, apples: &[CaliperRow]) -> Self {
-        let own: Vec<&CaliperRow> = apples
-            .iter()
-            .filter(|row| row.frame == record.frame.id)
-            .collect();
+    fn of(answer: &FrameAnswer, apples: &[CaliperRow]) -> Self {
+        let own: Vec<&CaliperRow> = apples.iter().filter(|row| row.frame == answer.id).collect();
         let errors: Vec<f64> = own
             .iter()
             .filter_map(|row| row.radius_error)
             .map(f64::abs)
             .collect();
         let mut by_status = BTreeMap::new();
-        for pick in &record.picks {
-            *by_status.entry(pick.status.name().to_owned()).or_insert(0) += 1;
+        for apple in &answer.apples {
+            *by_status.entry(apple.status.name().to_owned()).or_insert(0) += 1;
         }
         Self {
-            frame: record.frame.id.clone(),
-            boxes: record.picks.len(),
+            frame: answer.id.clone(),
+            boxes: answer.apples.len(),
             measured: own.len(),
             by_status,
             radius_error_absolute: (!errors.is_empty())
@@ -163,17 +160,17 @@ impl CaliperFrame {
 }
 
 impl CaliperRow {
-    fn of(frame: &str, caliper: &Caliper, pick: &Pick) -> Self {
+    fn of(frame: &str, caliper: &Caliper, answer: &AppleAnswer) -> Self {
         let measured_radius = 0.5 * caliper.diameter;
-        let apple = pick.apple.as_ref();
+        let apple = answer.apple;
         Self {
             box_name: caliper.box_name.clone(),
             frame: frame.to_owned(),
-            status: pick.status.name().to_owned(),
+            status: answer.status.name().to_owned(),
             measured_radius,
-            radius: apple.map(|a| a.radius),
-            radius_error: apple.map(|a| a.radius - measured_radius),
-            distance: apple.map(|a| nalgebra::Vector3::from(a.center).norm()),
+            radius: apple.map(|a| a.radius_m),
+            radius_error: apple.map(|a| a.radius_m - measured_radius),
+            distance: apple.map(|a| a.center.point().coords.norm()),
         }
     }
 }

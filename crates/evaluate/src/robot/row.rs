@@ -1,11 +1,9 @@
 use super::mounting::Mounting;
-use nalgebra::{Matrix2, Matrix3, Matrix3x2, Point3, Quaternion, UnitQuaternion, Vector2, Vector3};
-use pomona::{Pick, Status};
+use nalgebra::{Matrix2, Matrix3, Matrix3x2, Point3, Vector2, Vector3};
+use pomona::AppleAnswer;
 use pomona_geometry::{Line, angle_between};
 use pomona_scenes::AppleTruth;
-use pomona_transforms::{
-    CameraFrame, Direction, Position, RobotFrame, UncertainDirection, UncertainPosition, twist,
-};
+use pomona_transforms::{Position, RobotFrame, UncertainDirection, UncertainPosition, twist};
 use serde::{Deserialize, Serialize};
 
 /// One answered apple in the base's frame: how far the tool is from where it should be, and why.
@@ -94,17 +92,18 @@ fn stated(error: f64, covariance: Option<&Matrix3<f64>>) -> Term {
 
 impl BaseRow {
     /// Compares an answer in the base's frame with the truth; `None` where there is no answer.
-    pub(crate) fn of(mounting: &Mounting, truth: &AppleTruth, pick: &Pick) -> Option<Self> {
-        let robot = (pick.status == Status::Picked)
-            .then_some(pick.robot.as_ref())
-            .flatten()?;
-        let true_place = mounting.true_place(truth);
-        let offset = Point3::from(robot.center) - true_place;
-        let (position, place_covariance) = mounting.position_terms(truth, pick, offset)?;
-        let toward = approach_axis(robot.quaternion_xyzw);
+    pub(crate) fn of(
+        mounting: &Mounting,
+        truth: &AppleTruth,
+        answer: &AppleAnswer,
+    ) -> Option<Self> {
+        let robot = answer.robot.as_ref().filter(|_| answer.is_picked())?;
+        let offset = robot.center.point() - mounting.true_place(truth).point();
+        let (position, place_covariance) = mounting.position_terms(truth, answer, offset)?;
+        let toward = robot.tool.quaternion * Vector3::x();
         let (direction, direction_nees) = match truth.direction {
             Some(direction) => mounting
-                .direction_terms(truth, direction, pick, &toward)
+                .direction_terms(truth, direction, answer, &toward)
                 .unzip(),
             None => (None, None),
         };
@@ -117,37 +116,32 @@ impl BaseRow {
                 Some(offset.dot(&inverse.solve(&offset)))
             }),
             direction_nees: direction_nees.flatten(),
-            planned: mounting.planned(truth, pick),
+            planned: mounting.planned(truth, answer),
         })
     }
 }
 
-/// The tool's +x.
-fn approach_axis([x, y, z, w]: [f64; 4]) -> Vector3<f64> {
-    UnitQuaternion::new_normalize(Quaternion::new(w, x, y, z)) * Vector3::x()
-}
-
 /// From a centre to the nearest point of a line.
-fn towards(center: Point3<f64>, point: [f64; 3], along: [f64; 3]) -> Option<Vector3<f64>> {
-    let line = Line::new(Point3::from(point), Vector3::from(along))?;
+fn towards(center: Point3<f64>, point: Point3<f64>, along: Vector3<f64>) -> Option<Vector3<f64>> {
+    let line = Line::new(point, along)?;
     Some(line.foot(&center) - center)
 }
 
 impl Mounting {
-    fn true_place(&self, truth: &AppleTruth) -> Point3<f64> {
-        let center = Position::new(Point3::from(truth.center));
-        self.truth.position(&center).point()
+    fn true_place(&self, truth: &AppleTruth) -> Position<RobotFrame> {
+        self.truth
+            .position(&Position::new(Point3::from(truth.center)))
     }
 
     /// With the covariance of the place, where the method states one.
     fn position_terms(
         &self,
         truth: &AppleTruth,
-        pick: &Pick,
+        answer: &AppleAnswer,
         offset: Vector3<f64>,
     ) -> Option<(PositionTerms, Option<Matrix3<f64>>)> {
-        let apple = pick.apple.as_ref()?;
-        let (seen, center) = (Point3::from(apple.center), Point3::from(truth.center));
+        let apple = answer.apple?;
+        let (seen, center) = (apple.center.point(), Point3::from(truth.center));
         let (here, there) = (&self.estimate.transform, &self.truth);
         let lever = here.rotation() * seen.coords;
         let rotation = lever - there.rotation() * seen.coords;
@@ -155,11 +149,9 @@ impl Mounting {
         let arm = twist::skew(&lever);
         let by_rotation = arm * self.estimate.rotation_covariance_rad2() * arm.transpose();
         let by_translation = self.estimate.translation_covariance_m2();
-        let exact = UncertainPosition::from(Position::<CameraFrame>::new(seen));
+        let exact = UncertainPosition::from(apple.center);
         let both = self.estimate.position(&exact).covariance_m2;
-        let own = apple
-            .center_covariance
-            .map(|rows| Matrix3::from_fn(|i, j| rows[i][j]));
+        let own = apple.center_covariance.map(|c| c.matrix_m2());
         let total = own.map(|covariance_m2| {
             let uncertain = UncertainPosition {
                 covariance_m2,
@@ -182,26 +174,27 @@ impl Mounting {
         &self,
         truth: &AppleTruth,
         true_direction: [f64; 3],
-        pick: &Pick,
+        answer: &AppleAnswer,
         toward: &Vector3<f64>,
     ) -> Option<(DirectionTerms, Option<f64>)> {
         let wood = truth.branch.as_ref()?;
-        let branch = pick.branch.as_ref()?;
+        let (branch, pick) = (answer.branch?, answer.pick?);
         let center = Point3::from(truth.center);
-        let seen = Point3::from(pick.apple.as_ref()?.center);
-        let (right, given) = (
-            Vector3::from(true_direction),
-            Vector3::from(pick.direction?),
-        );
-        let of_center = towards(seen, wood.point, wood.direction)?;
-        let of_branch = towards(center, branch.point, branch.direction)?;
+        let seen = answer.apple?.center.point();
+        let right = Vector3::from(true_direction);
+        let given = pick.direction.vector();
+        let of_center = towards(
+            seen,
+            Point3::from(wood.point),
+            Vector3::from(wood.direction),
+        )?;
+        let of_branch = towards(center, branch.point.point(), branch.direction.vector())?;
 
-        let exact = UncertainDirection::from(Direction::<CameraFrame>::new(given)?);
+        let exact = UncertainDirection::from(pick.direction);
         let turn = self.estimate.direction(&exact).covariance_rad2;
-        let own = pick.direction_sd.map(|sd| {
-            let unit = exact.direction.vector();
-            (Matrix3::identity() - unit * unit.transpose()) * (sd * sd)
-        });
+        let own = pick
+            .sd_rad
+            .map(|sd| (Matrix3::identity() - given * given.transpose()) * (sd * sd));
         let total = own.map(|covariance_rad2| {
             let uncertain = UncertainDirection {
                 covariance_rad2,
@@ -226,20 +219,20 @@ impl Mounting {
         Some((terms, nees))
     }
 
-    fn planned(&self, truth: &AppleTruth, pick: &Pick) -> Option<PlannedRow> {
-        let approach = pick.plan.approach.as_ref()?;
-        let tool = pick.plan.gripper.as_ref().map(|g| &g.tool);
+    fn planned(&self, truth: &AppleTruth, answer: &AppleAnswer) -> Option<PlannedRow> {
+        let plan = answer.plan.as_ref()?;
+        let approach = plan.approach.as_ref().ok().map(|planned| &planned.approach);
         let right = truth
             .direction
             .map(|d| self.truth.rotation() * Vector3::from(d));
+        let off = |place: Vector3<f64>| place - self.true_place(truth).point().coords;
         Some(PlannedRow {
-            status: approach.status.clone(),
-            tilt: approach.way.as_ref().map(|way| way.tilt),
-            position_error: tool
-                .map(|tool| (Point3::from(tool.position) - self.true_place(truth)).norm()),
-            direction_error: tool.zip(right).and_then(|(tool, right)| {
-                angle_between(&approach_axis(tool.quaternion_xyzw), &right)
-            }),
+            status: plan.status().to_owned(),
+            tilt: approach.map(|a| a.tilt_rad),
+            position_error: approach.map(|a| off(a.grasp.translation.vector).norm()),
+            direction_error: approach
+                .zip(right)
+                .and_then(|(a, right)| angle_between(&(a.grasp.rotation * Vector3::x()), &right)),
         })
     }
 }
@@ -271,7 +264,10 @@ fn least_axis(v: &Vector3<f64>) -> Vector3<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use pomona_transforms::{Transform, UncertainTransform};
+    use pomona::{FittedApple, FittedBranch, PickDirection, RobotFromCamera, RobotTarget, Status};
+    use pomona_transforms::{
+        CameraFrame, Direction, PositionCovariance, Transform, UncertainTransform,
+    };
     use serde_json::json;
 
     fn truth() -> AppleTruth {
@@ -285,24 +281,24 @@ mod tests {
     }
 
     /// An answer that is `off` the truth, in the frame that `estimate` leads to.
-    fn pick(estimate: &Transform<RobotFrame, CameraFrame>, off: f64) -> Pick {
-        let center = Point3::new(0.1, -0.05, 0.8 + off);
+    fn answer(estimate: &Transform<RobotFrame, CameraFrame>, off: f64) -> AppleAnswer {
+        let center = Position::new(Point3::new(0.1, -0.05, 0.8 + off));
         let given = Direction::new(Vector3::new(0.0, -1.0, 0.02)).unwrap();
-        let tool = pomona_transforms::ToolOrientation::along(&estimate.direction(&given));
-        let place: [f64; 3] = estimate.position(&Position::new(center)).point().into();
-        let toward: [f64; 3] = estimate.direction(&given).vector().into();
-        let d: [f64; 3] = given.vector().into();
-        serde_json::from_value(json!({
-            "id": 0, "box": truth().bounds, "status": "picked",
-            "apple": {"center": [center.x, center.y, center.z], "radius": 0.041, "inliers": 9, "rms": 0.0,
-                "center_covariance": [[1e-6, 0.0, 0.0], [0.0, 1e-6, 0.0], [0.0, 0.0, 4e-6]]},
-            "branch": {"point": [0.1, -0.1, 0.801], "direction": [1.0, 0.0, 0.0], "inliers": 9, "rms": 0.0},
-            "foot": [0.1, -0.1, 0.801], "direction": d, "direction_sd": 0.01,
-            "robot": {"frame_id": "base", "center": place, "direction": toward,
-                "quaternion_xyzw": tool.quaternion_xyzw(), "euler_zyx": [0.0, 0.0, 0.0], "singular": false},
-            "timing_ms": {"crop": 0.0, "sphere": 1.0, "branch": 2.0, "total": 3.0}
-        }))
-        .unwrap()
+        let on_branch = Position::new(Point3::new(0.1, -0.1, 0.801));
+        let mut apple = FittedApple::new(center, 0.041, 9, 0.0);
+        let covariance = Matrix3::from_diagonal(&Vector3::new(1e-6, 1e-6, 4e-6));
+        apple.center_covariance = Some(PositionCovariance::new(covariance));
+        let mut pick = PickDirection::new(&center, on_branch).unwrap();
+        (pick.direction, pick.sd_rad) = (given, Some(0.01));
+        let along_x = Direction::new(Vector3::x()).unwrap();
+        let to_base = RobotFromCamera::new(*estimate, "base", "camera");
+
+        let mut answer = AppleAnswer::new(0, truth().bounds, Status::Picked);
+        answer.robot = Some(RobotTarget::new(&to_base, &center, &given));
+        answer.apple = Some(apple);
+        answer.branch = Some(FittedBranch::new(on_branch, along_x, 9, 0.0));
+        answer.pick = Some(pick);
+        answer
     }
 
     fn place() -> Transform<RobotFrame, CameraFrame> {
@@ -314,7 +310,7 @@ mod tests {
             truth: place(),
             estimate: UncertainTransform::exact(estimate),
         };
-        BaseRow::of(&mounting, &truth(), &pick(&estimate, off)).unwrap()
+        BaseRow::of(&mounting, &truth(), &answer(&estimate, off)).unwrap()
     }
 
     #[test]
@@ -354,7 +350,7 @@ mod tests {
 
     #[test]
     fn a_turned_camera_swings_the_apple_by_its_lever_arm() {
-        let turn = UnitQuaternion::from_scaled_axis(Vector3::new(0.0, 0.0, 0.01));
+        let turn = nalgebra::UnitQuaternion::from_scaled_axis(Vector3::new(0.0, 0.0, 0.01));
         let there = place().isometry();
         let turned = nalgebra::Isometry3::from_parts(there.translation, turn * there.rotation);
         let row = row(Transform::from_isometry(&turned).unwrap(), 0.0);
@@ -371,10 +367,8 @@ mod tests {
     #[test]
     fn a_refusal_sends_no_gripper() {
         let estimate = UncertainTransform::exact(place());
-        let refused = Pick {
-            status: Status::NoBranch,
-            ..pick(&place(), 0.0)
-        };
+        let mut refused = answer(&place(), 0.0);
+        refused.status = Status::NoBranch;
         let mounting = Mounting {
             truth: place(),
             estimate,

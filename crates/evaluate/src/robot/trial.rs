@@ -2,8 +2,7 @@ use super::mounting::{CalibrationNoise, Mounting};
 use crate::error::EvaluateError;
 use crate::method::PickMethod;
 use crate::subject::Subject;
-use pomona::{Record, Robot};
-use pomona_cloud::Frame;
+use pomona::{CheckedFrame, FrameAnswer, Robot};
 use pomona_transforms::NamedTransform;
 
 /// The offset basis and the prime of FNV-1a with 64 bits, whose digests are the same on every machine (RFC 9923).
@@ -41,20 +40,20 @@ impl RobotTrial {
     pub(crate) fn answer(
         &self,
         method: &dyn PickMethod,
-        frame: &Frame,
+        frame: &CheckedFrame<'_>,
         seed: u64,
         mounting: &Mounting,
-    ) -> Result<Record, EvaluateError> {
+    ) -> Result<FrameAnswer, EvaluateError> {
         let transform = NamedTransform {
             covariance: Some(mounting.estimate.covariance),
             ..NamedTransform::new(
                 mounting.estimate.transform,
                 BASE,
-                frame.camera.frame_id.clone(),
+                frame.frame().camera.frame_id.clone(),
             )
         };
-        let mut outcome = method.outcome(frame, seed, &transform)?;
-        self.robot.plan(frame, &mut outcome, &transform)?;
-        Ok(outcome.record)
+        let mut answer = method.answer_for_robot(frame, seed, &transform)?;
+        self.robot.plan(frame, &mut answer, &transform);
+        Ok(answer)
     }
 }

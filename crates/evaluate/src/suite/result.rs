@@ -172,7 +172,7 @@ impl Timing {
             .filter(|row| row.is_answered())
             .filter_map(|row| row.timing_ms)
             .collect();
-        let spread = |stage: fn(&pomona::TimingRecord) -> f64| {
+        let spread = |stage: fn(&pomona::record::StageTimesRecord) -> f64| {
             MeanSd::of(&timings.iter().map(stage).collect::<Vec<_>>())
         };
         Some(Self {

@@ -1,10 +1,11 @@
 //! Radii and centres of frames whose apples are known.
 
-use nalgebra::{Isometry3, Point3};
-use pomona::{Config, Method, PickError, Picker, Record};
+use nalgebra::Isometry3;
+use pomona::{CheckedFrame, Config, FrameAnswer, Method, PickError, Picker};
 use pomona_cloud::Frame;
 use pomona_evaluate::{Caliper, PickMethod, caliper_page, measure_calipers, read_calipers};
 use pomona_scenes::Suite;
+use pomona_transforms::Position;
 use std::path::Path;
 
 /// Sees the frame `second` from another place, its first apple wrongly.
@@ -15,22 +16,18 @@ impl PickMethod for Moved {
         "moved"
     }
 
-    fn answer(&self, frame: &Frame, seed: u64) -> Result<Record, PickError> {
-        let mut record = self.0.answer(frame, seed)?;
-        if frame.id == "second" {
+    fn answer(&self, frame: &CheckedFrame<'_>, seed: u64) -> Result<FrameAnswer, PickError> {
+        let mut answer = self.0.answer(frame, seed)?;
+        if answer.id == "second" {
             let motion = Isometry3::new([0.2, 0.0, 0.1].into(), [0.0, 0.3, 0.0].into());
-            for (i, apple) in record
-                .picks
-                .iter_mut()
-                .filter_map(|p| p.apple.as_mut())
-                .enumerate()
-            {
-                let center = motion * Point3::from(apple.center);
-                apple.center = center.into();
-                apple.center[1] += if i == 0 { 0.2 } else { 0.0 };
+            let apples = answer.apples.iter_mut().filter_map(|a| a.apple.as_mut());
+            for (i, apple) in apples.enumerate() {
+                let mut center = motion * apple.center.point();
+                center.y += if i == 0 { 0.2 } else { 0.0 };
+                apple.center = Position::new(center);
             }
         }
-        Ok(record)
+        Ok(answer)
     }
 }
 

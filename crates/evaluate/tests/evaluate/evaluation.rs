@@ -1,7 +1,6 @@
 //! The evaluation as a whole: same answers for any number of threads, several methods side by side, folders.
 
-use pomona::{Config, Method, PickError, Picker, Record};
-use pomona_cloud::Frame;
+use pomona::{CheckedFrame, Config, FrameAnswer, Method, PickError, Picker};
 use pomona_evaluate::{EvaluateError, Evaluation, PickMethod, Subject, evaluate};
 use rayon::ThreadPoolBuilder;
 
@@ -62,13 +61,13 @@ impl PickMethod for Silent {
         "silent"
     }
 
-    fn answer(&self, frame: &Frame, seed: u64) -> Result<Record, PickError> {
-        let mut record = self.0.answer(frame, seed)?;
-        for pick in &mut record.picks {
-            pick.status = pomona::Status::NoBranch;
-            (pick.direction, pick.foot, pick.branch) = (None, None, None);
+    fn answer(&self, frame: &CheckedFrame<'_>, seed: u64) -> Result<FrameAnswer, PickError> {
+        let mut answer = self.0.answer(frame, seed)?;
+        for apple in &mut answer.apples {
+            apple.status = pomona::Status::NoBranch;
+            (apple.pick, apple.branch) = (None, None);
         }
-        Ok(record)
+        Ok(answer)
     }
 }
 

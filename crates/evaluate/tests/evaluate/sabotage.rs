@@ -1,9 +1,10 @@
 //! A broken method must not pass the regression gate: the committed limits and goldens against methods that
 //! are spoilt on purpose.
 
-use pomona::{Config, Method, PickError, Picker, Record};
-use pomona_cloud::Frame;
+use nalgebra::Vector3;
+use pomona::{CheckedFrame, Config, FrameAnswer, Method, PickError, Picker};
 use pomona_evaluate::{PickMethod, Subject, evaluate};
+use pomona_transforms::Direction;
 use std::path::Path;
 use xtask_gate::{Finding, Golden, Limits, SuiteLimits, Verdict, failures, judge};
 
@@ -29,26 +30,31 @@ impl PickMethod for Spoilt {
         self.method.name()
     }
 
-    fn answer(&self, frame: &Frame, seed: u64) -> Result<Record, PickError> {
-        let mut record = self.method.answer(frame, seed)?;
-        for (i, pick) in record.picks.iter_mut().enumerate() {
+    fn answer(&self, frame: &CheckedFrame<'_>, seed: u64) -> Result<FrameAnswer, PickError> {
+        let mut answer = self.method.answer(frame, seed)?;
+        for (i, apple) in answer.apples.iter_mut().enumerate() {
             match self.sabotage {
                 Sabotage::None => {}
-                Sabotage::Flipped => pick.direction = pick.direction.map(|d| d.map(|c| -c)),
-                Sabotage::Swollen => pick.apple.iter_mut().for_each(|apple| apple.radius *= 1.05),
+                Sabotage::Flipped => {
+                    if let Some(pick) = &mut apple.pick {
+                        pick.direction = -pick.direction;
+                    }
+                }
+                Sabotage::Swollen => apple.apple.iter_mut().for_each(|a| a.radius_m *= 1.05),
                 Sabotage::RandomBranch => {
                     // Points of a Fibonacci lattice on the sphere, in an order that the frame's name decides.
-                    let n = frame.id.bytes().map(usize::from).sum::<usize>() * 17 + i;
+                    let n = frame.frame().id.bytes().map(usize::from).sum::<usize>() * 17 + i;
                     let z = 1.0 - 2.0 * ((n % 97) as f64 + 0.5) / 97.0;
                     let turn = n as f64 * 2.399_963_229_728_653;
                     let ring = (1.0 - z * z).sqrt();
-                    pick.direction = pick
-                        .direction
-                        .map(|_| [ring * turn.cos(), ring * turn.sin(), z]);
+                    if let Some(pick) = &mut apple.pick {
+                        let any = Vector3::new(ring * turn.cos(), ring * turn.sin(), z);
+                        pick.direction = Direction::new(any).expect("a direction");
+                    }
                 }
             }
         }
-        Ok(record)
+        Ok(answer)
     }
 }
 

@@ -2,17 +2,17 @@
 
 use crate::drawn_tree::{Trial, View, still};
 use crate::orchard_views::views;
-use nalgebra::{Matrix3, Matrix6, Point3, Vector3};
-use pomona::{Record, RobotFromCamera};
+use nalgebra::{Matrix3, Matrix6, Vector3};
+use pomona::{FrameAnswer, RobotFromCamera};
 use pomona_fusion::{
-    DirectionUse, FusedStatus, Fusion, FusionConfig, FusionError, PlaceUse, PosedRecord, fuse,
+    DirectionUse, FusedStatus, Fusion, FusionConfig, FusionError, PlaceUse, PosedAnswer, fuse,
 };
 
-fn fused(frames: &[(Record, RobotFromCamera)], config: &FusionConfig) -> Fusion {
-    let posed: Vec<PosedRecord> = frames
+fn fused(frames: &[(FrameAnswer, RobotFromCamera)], config: &FusionConfig) -> Fusion {
+    let posed: Vec<PosedAnswer> = frames
         .iter()
-        .map(|(record, robot_from_camera)| PosedRecord {
-            record,
+        .map(|(answer, robot_from_camera)| PosedAnswer {
+            answer,
             robot_from_camera,
         })
         .collect();
@@ -50,7 +50,7 @@ fn fused_places_are_better_than_each_frame_and_their_covariance_is_true() {
                     pose_sd: (0.001, 0.001),
                     ..still(angle)
                 };
-                trial.record(&format!("f{k}"), &tree, &view)
+                trial.answer(&format!("f{k}"), &tree, &view)
             })
             .collect();
         let fusion = fused(&frames, &config);
@@ -66,13 +66,12 @@ fn fused_places_are_better_than_each_frame_and_their_covariance_is_true() {
                     * error),
             );
             angles += Vector3::from(apple.direction.unwrap()).angle(&truth.direction);
-            for (record, pose) in &frames {
-                let pick = &record.picks[apple.sightings[0].pick];
-                let center =
-                    pose.transform.isometry() * Point3::from(pick.apple.as_ref().unwrap().center);
-                single += (center.coords - truth.center).norm() / 3.0;
-                let direction = pose.transform.rotation() * Vector3::from(pick.direction.unwrap());
-                singles += direction.angle(&truth.direction) / 3.0;
+            for (answer, pose) in &frames {
+                let own = &answer.apples[apple.sightings[0].pick];
+                let center = pose.transform.position(&own.apple.unwrap().center);
+                single += (center.point().coords - truth.center).norm() / 3.0;
+                let direction = pose.transform.direction(&own.pick.unwrap().direction);
+                singles += direction.vector().angle(&truth.direction) / 3.0;
             }
             count += 1.0;
         }
@@ -102,8 +101,8 @@ fn sway_is_no_movement_and_is_measured() {
         let tree = trial.tree(10);
         let sway = trial.normals() * 0.008;
         let frames = [
-            trial.record("a", &tree, &still(-0.3)),
-            trial.record("b", &tree, &View { sway, ..still(0.3) }),
+            trial.answer("a", &tree, &still(-0.3)),
+            trial.answer("b", &tree, &View { sway, ..still(0.3) }),
         ];
         let fusion = fused(&frames, &exact());
         assert!(
@@ -132,8 +131,8 @@ fn the_apple_that_moved_is_found_among_those_that_swayed() {
         after[3].center += way;
         let sway = trial.normals() * 0.006;
         let frames = [
-            trial.record("a", &tree, &still(-0.4)),
-            trial.record("b", &after, &View { sway, ..still(0.4) }),
+            trial.answer("a", &tree, &still(-0.4)),
+            trial.answer("b", &after, &View { sway, ..still(0.4) }),
         ];
         let fusion = fused(&frames, &exact());
         let moved: Vec<_> = fusion
@@ -174,8 +173,8 @@ fn apples_at_rest_are_called_moved_no_oftener_than_the_rate_says() {
             ..still(0.4)
         };
         let frames = [
-            trial.record("a", &tree, &still(-0.4)),
-            trial.record("b", &tree, &view),
+            trial.answer("a", &tree, &still(-0.4)),
+            trial.answer("b", &tree, &view),
         ];
         let fusion = fused(&frames, &config);
         tests += tree.len();
@@ -194,8 +193,8 @@ fn apples_at_rest_are_called_moved_no_oftener_than_the_rate_says() {
         let tree = trial.tree(6);
         let sway = trial.normals() * 0.01;
         let frames = [
-            trial.record("a", &tree, &still(-0.4)),
-            trial.record("b", &tree, &View { sway, ..still(0.4) }),
+            trial.answer("a", &tree, &still(-0.4)),
+            trial.answer("b", &tree, &View { sway, ..still(0.4) }),
         ];
         let fusion = fused(&frames, &FusionConfig::default());
         fusion.record.apples.iter().any(|a| a.moved.is_some())
@@ -208,8 +207,8 @@ fn apples_of_one_frame_are_kept_and_never_joined_with_their_own() {
     let mut trial = Trial::new(7);
     let tree = trial.tree(6);
     let frames = [
-        trial.record("a", &tree[..4], &still(-0.3)),
-        trial.record("b", &tree[2..], &still(0.3)),
+        trial.answer("a", &tree[..4], &still(-0.3)),
+        trial.answer("b", &tree[2..], &still(0.3)),
     ];
     let fusion = fused(&frames, &exact());
     let seen: Vec<usize> = fusion
@@ -223,8 +222,8 @@ fn apples_of_one_frame_are_kept_and_never_joined_with_their_own() {
     // The same place twice in one frame stays two apples.
     let twice = [tree[0], tree[0]];
     let frames = [
-        trial.record("a", &twice, &still(-0.3)),
-        trial.record("b", &tree[..1], &still(0.3)),
+        trial.answer("a", &twice, &still(-0.3)),
+        trial.answer("b", &tree[..1], &still(0.3)),
     ];
     let fusion = fused(&frames, &exact());
     for apple in &fusion.record.apples {
@@ -241,9 +240,9 @@ fn a_direction_that_contradicts_is_dropped_by_name() {
     let mut wrong = tree.clone();
     wrong[1].direction = -wrong[1].direction;
     let frames = [
-        trial.record("a", &tree, &still(-0.4)),
-        trial.record("b", &wrong, &still(0.0)),
-        trial.record("c", &tree, &still(0.4)),
+        trial.answer("a", &tree, &still(-0.4)),
+        trial.answer("b", &wrong, &still(0.0)),
+        trial.answer("c", &tree, &still(0.4)),
     ];
     let fusion = fused(&frames, &exact());
     let apple = &fusion.record.apples[1];
@@ -272,8 +271,8 @@ fn a_direction_that_contradicts_is_dropped_by_name() {
 fn a_camera_at_rest_shares_its_error_and_the_same_input_gives_the_same_bytes() {
     let mut trial = Trial::new(11);
     let tree = trial.tree(6);
-    let (first, pose) = trial.record("a", &tree, &still(0.0));
-    let (second, _) = trial.record("b", &tree, &still(0.0));
+    let (first, pose) = trial.answer("a", &tree, &still(0.0));
+    let (second, _) = trial.answer("b", &tree, &still(0.0));
     let mut covariance = Matrix6::zeros();
     covariance.fill_diagonal(0.004_f64.powi(2));
     let pose = RobotFromCamera {
@@ -295,13 +294,13 @@ fn a_camera_at_rest_shares_its_error_and_the_same_input_gives_the_same_bytes() {
 fn what_contradicts_itself_is_refused_by_name() {
     let mut trial = Trial::new(13);
     let tree = trial.tree(3);
-    let a = trial.record("a", &tree, &still(-0.3));
-    let b = trial.record("b", &tree, &still(0.3));
-    let run = |frames: &[(Record, RobotFromCamera)]| {
-        let posed: Vec<PosedRecord> = frames
+    let a = trial.answer("a", &tree, &still(-0.3));
+    let b = trial.answer("b", &tree, &still(0.3));
+    let run = |frames: &[(FrameAnswer, RobotFromCamera)]| {
+        let posed: Vec<PosedAnswer> = frames
             .iter()
-            .map(|(record, robot_from_camera)| PosedRecord {
-                record,
+            .map(|(answer, robot_from_camera)| PosedAnswer {
+                answer,
                 robot_from_camera,
             })
             .collect();
@@ -312,7 +311,7 @@ fn what_contradicts_itself_is_refused_by_name() {
         FusionError::TooFew { count: 1 }
     ));
     let mut renamed = a.clone();
-    renamed.0.frame.id = "c".into();
+    renamed.0.id = "c".into();
     for twice in [a.clone(), renamed] {
         let error = run(&[a.clone(), twice]);
         assert!(matches!(error, FusionError::SameFrame { .. }), "{error}");
@@ -334,8 +333,8 @@ fn what_contradicts_itself_is_refused_by_name() {
 fn frames_without_apples_are_no_error() {
     let mut trial = Trial::new(17);
     let frames = [
-        trial.record("a", &[], &still(-0.3)),
-        trial.record("b", &[], &still(0.3)),
+        trial.answer("a", &[], &still(-0.3)),
+        trial.answer("b", &[], &still(0.3)),
     ];
     assert!(fused(&frames, &exact()).record.apples.is_empty());
 }
@@ -365,9 +364,9 @@ fn rendered_orchards_from_three_poses() {
                     .sightings
                     .iter()
                     .map(|s| {
-                        let (record, pose) = &scene.frames[s.frame];
-                        let center = record.picks[s.pick].apple.as_ref().unwrap().center;
-                        error((pose.transform.isometry() * Point3::from(center)).into())
+                        let (answer, pose) = &scene.frames[s.frame];
+                        let center = answer.apples[s.pick].apple.unwrap().center;
+                        error(pose.transform.position(&center).point().into())
                     })
                     .collect();
                 together += error(apple.center);
@@ -392,9 +391,9 @@ fn a_place_seen_badly_is_a_misfit_and_no_movement() {
     let tree = trial.tree(8);
     let mut after = tree.clone();
     after[3].center += Vector3::new(0.02, 0.02, 0.0);
-    let first = trial.record("a", &tree, &still(-0.4));
-    let mut second = trial.record("b", &after, &still(0.4));
-    second.0.picks[3].apple.as_mut().unwrap().visible_share = Some(0.1);
+    let first = trial.answer("a", &tree, &still(-0.4));
+    let mut second = trial.answer("b", &after, &still(0.4));
+    second.0.apples[3].apple.as_mut().unwrap().visible_share = Some(0.1);
     let fusion = fused(&[first, second], &exact());
     assert_eq!(fusion.record.apples.len(), 8);
     let apple = &fusion.record.apples[3];

@@ -2,8 +2,7 @@
 
 use crate::ros;
 use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3};
-use pomona::{PickError, Robot, RobotPlan};
-use pomona_cloud::{DepthPoints, Frame, PixelWindow};
+use pomona::{CheckedFrame, Robot, RobotPlan};
 use serde_json::{Value, json};
 use std::f64::consts::PI;
 
@@ -60,15 +59,8 @@ pub(super) fn frame_transform(
 }
 
 /// x y z as 32-bit floats, then red green blue alpha as bytes.
-pub(super) fn cloud(frame: &Frame) -> Result<Value, PickError> {
-    let window = PixelWindow::full(frame.depth.width, frame.depth.height);
-    let mut points = DepthPoints::new();
-    points
-        .fill(&frame.depth, &frame.camera, window)
-        .map_err(|source| PickError::Frame {
-            frame: frame.id.clone(),
-            source: Box::new(source),
-        })?;
+pub(super) fn cloud(frame: &CheckedFrame<'_>) -> Value {
+    let (points, frame) = (frame.points(), frame.frame());
     let mut data = Vec::with_capacity(points.len() * 16);
     for i in 0..points.len() {
         for c in [points.x[i], points.y[i], points.z[i]] {
@@ -80,7 +72,7 @@ pub(super) fn cloud(frame: &Frame) -> Result<Value, PickError> {
     }
     let field =
         |name: &str, offset: u8, kind: u8| json!({"name": name, "offset": offset, "type": kind});
-    Ok(json!({
+    json!({
         "timestamp": time(0.0),
         "frame_id": frame.camera.frame_id,
         "pose": pose(&Isometry3::identity()),
@@ -90,7 +82,7 @@ pub(super) fn cloud(frame: &Frame) -> Result<Value, PickError> {
             field("red", 12, UINT8), field("green", 13, UINT8), field("blue", 14, UINT8), field("alpha", 15, UINT8),
         ],
         "data": base64(&data),
-    }))
+    })
 }
 
 /// RFC 4648, section 4.

@@ -202,7 +202,7 @@ fn a_refused_apple_has_no_grasp() {
 #[test]
 fn files_say_the_same_as_the_messages() {
     let config = config();
-    let (outcome, plan) = planned(&lab(), &config);
+    let (answer, plan) = planned(&lab(), &config);
     let files = ros::files(&plan, &config);
     let names: Vec<_> = files.iter().map(|f| f.name.as_str()).collect();
     let wanted = [
@@ -213,8 +213,9 @@ fn files_say_the_same_as_the_messages() {
         "ros-grasp-0.yaml",
     ];
     assert_eq!(names, wanted);
-    let wrist = &outcome.record.picks[0].plan.gripper.as_ref().unwrap().wrist;
-    for (axis, value) in ["x", "y", "z"].iter().zip(wrist.position) {
+    let apple = answer.apples[0].plan.as_ref().unwrap();
+    let wrist = &apple.approach.as_ref().unwrap().wrist.translation.vector;
+    for (axis, value) in ["x", "y", "z"].iter().zip(wrist.iter()) {
         let numbers: Vec<f64> = files[3]
             .text
             .lines()

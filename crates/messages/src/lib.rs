@@ -1,11 +1,40 @@
-//! A frame's answers and the robot's plan as other programs read them: messages of ROS 2 and `MoveIt`, and recordings.
+//! A robot's plan for a frame as other programs read it: messages of ROS 2 and `MoveIt`, and MCAP recordings.
 //!
-//! [`ros`] writes a plan as YAML that `ros2 topic pub` takes.
+//! ```
+//! use pomona::{ApproachConfig, Config, Picker, Robot, RobotFromCamera};
+//! use pomona_messages::ros;
+//! use pomona_scenes::Suite;
+//! use pomona_transforms::Transform;
+//!
+//! // A rendered frame of one apple below a branch; the camera looks along the robot's x axis.
+//! let case = Suite::Lab15.cases().find(|case| case.name.contains("x0")).unwrap();
+//! let frame = case.scene().frame;
+//! let pose = Transform::from_quaternion([0.0, 0.0, 0.5], [-0.5, 0.5, -0.5, 0.5])?;
+//! let robot_from_camera = RobotFromCamera::new(pose, "base_link", frame.camera.frame_id.clone());
+//!
+//! let picker = Picker::new(Config::default())?;
+//! let mut outcome = picker.pick(&frame, 0, Some(&robot_from_camera))?;
+//! let robot = Robot::new(ApproachConfig::default())?;
+//! let plan = robot.plan(&frame, &mut outcome, &robot_from_camera)?;
+//!
+//! let files = ros::files(&plan, robot.config());
+//! assert_eq!(files[1].name, "ros-scene.yaml");
+//! assert!(files[1].text.contains("frame_id: \"base_link\""));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # Concepts
+//!
+//! - [`ros`] turns a plan into messages of ROS 2 and `MoveIt` and writes them as YAML that `ros2 topic pub` takes.
+//! - `recording`, with the feature `mcap`, writes a frame and its plan as an MCAP file with Foxglove's schemas.
+//!
+//! # Not here
+//!
+//! Planning (`pomona`, `pomona-approach`), ROS nodes and transports: what comes out are texts and bytes.
 //!
 //! # Features
 //!
-//! `mcap` (off by default): the module `recording` writes a frame and its plan as an MCAP file with
-//! Foxglove's schemas.
+//! `mcap` (off by default): the module `recording`.
 
 #[cfg(feature = "mcap")]
 pub mod recording;

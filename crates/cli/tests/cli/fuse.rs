@@ -2,8 +2,8 @@
 
 use crate::binary::{pomona, tree};
 use crate::scene::Bench;
-use pomona::FusedRecord;
 use pomona_cloud::{Camera, PointCloud};
+use pomona_fusion::FusedRecord;
 use pomona_scenes::{Axis, Lab, Orientation, Sensor, Shot};
 use std::path::PathBuf;
 

@@ -23,3 +23,4 @@ mod scenes;
 mod schema;
 mod settings;
 mod shell;
+mod tutorial;

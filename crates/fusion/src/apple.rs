@@ -112,7 +112,11 @@ impl AppleFusion<'_> {
     /// The observations of an apple at its current and its other position, in the order of the frames.
     fn all_observations(&self, track: usize, link: Option<Link>) -> Vec<usize> {
         let mut all = self.estimate.tracks[track].clone();
-        all.extend(link.map(|l| &self.estimate.tracks[l.other]).into_iter().flatten());
+        all.extend(
+            link.map(|l| &self.estimate.tracks[l.other])
+                .into_iter()
+                .flatten(),
+        );
         all.sort_unstable();
         all
     }

@@ -168,7 +168,16 @@ mod tests {
     #[test]
     fn the_mean_leans_to_the_surer_and_is_surer_than_both() {
         let c = combine(&[at(0.0, 2.0, 0.8), at(3.0, 1.0, 0.8)], 13.8, 0.3).unwrap();
-        assert!((c.direction.vector().y.atan2(c.direction.vector().x).to_degrees() - 2.4).abs() < 1e-9);
+        assert!(
+            (c.direction
+                .vector()
+                .y
+                .atan2(c.direction.vector().x)
+                .to_degrees()
+                - 2.4)
+                .abs()
+                < 1e-9
+        );
         assert!(c.sd_rad < 1f64.to_radians() && c.confidence > 0.9);
         assert_eq!(c.agreeing, [true, true]);
     }

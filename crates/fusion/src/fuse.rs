@@ -6,23 +6,24 @@ use crate::error::FusionError;
 use crate::joint::JointEstimate;
 use crate::motion::{MotionPriors, correction};
 use crate::observation::{Observation, centroid};
-use pomona::{FusionConfig, Record, RobotFromCamera};
+use pomona::{FrameAnswer, FusionConfig, RobotFromCamera};
+use pomona_transforms::{CameraFrame, Position};
 
 /// The answers for one frame and the pose of its camera.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
-pub struct PosedFrame<'a> {
+pub struct PosedAnswer<'a> {
     /// The answers, in the camera's frame.
-    pub record: &'a Record,
+    pub answer: &'a FrameAnswer,
     /// The camera's pose when the frame was taken, with its covariance where that is known.
     pub robot_from_camera: &'a RobotFromCamera,
 }
 
-impl<'a> PosedFrame<'a> {
+impl<'a> PosedAnswer<'a> {
     /// The answers for a frame that was taken at this pose.
-    pub fn new(record: &'a Record, robot_from_camera: &'a RobotFromCamera) -> Self {
+    pub fn new(answer: &'a FrameAnswer, robot_from_camera: &'a RobotFromCamera) -> Self {
         Self {
-            record,
+            answer,
             robot_from_camera,
         }
     }
@@ -50,15 +51,15 @@ impl<'a> PosedFrame<'a> {
 ///   different frames of a robot.
 /// - [`FusionError::SameFrame`]: a frame given twice.
 /// - [`FusionError::Numbers`]: covariances that are not positive definite.
-pub fn fuse(frames: &[PosedFrame<'_>], config: &FusionConfig) -> Result<FusedTree, FusionError> {
+pub fn fuse(frames: &[PosedAnswer<'_>], config: &FusionConfig) -> Result<FusedTree, FusionError> {
     config.validate()?;
     check(frames)?;
     let observations: Vec<Observation> = frames
         .iter()
         .enumerate()
         .flat_map(|(k, frame)| {
-            let picks = frame.record.picks.iter();
-            picks.filter_map(move |p| Observation::new(k, p, frame.robot_from_camera, config))
+            let apples = frame.answer.apples.iter();
+            apples.filter_map(move |a| Observation::new(k, a, frame.robot_from_camera, config))
         })
         .collect();
     let poses: Vec<&RobotFromCamera> = frames.iter().map(|f| f.robot_from_camera).collect();
@@ -79,7 +80,7 @@ pub fn fuse(frames: &[PosedFrame<'_>], config: &FusionConfig) -> Result<FusedTre
     Ok(FusedTree {
         frame_id: frames[0].robot_from_camera.to.clone(),
         frames: (0..frames.len())
-            .map(|k| fused_frame(k, frames[k].record, &estimate, &priors, gate))
+            .map(|k| fused_frame(k, frames[k].answer, &estimate, &priors, gate))
             .collect(),
         apples: apples.apples(),
     })
@@ -87,7 +88,7 @@ pub fn fuse(frames: &[PosedFrame<'_>], config: &FusionConfig) -> Result<FusedTre
 
 fn fused_frame(
     k: usize,
-    record: &Record,
+    answer: &FrameAnswer,
     estimate: &JointEstimate<'_>,
     priors: &MotionPriors,
     gate: f64,
@@ -98,8 +99,8 @@ fn fused_frame(
         .count();
     let observations = estimate.observations.iter();
     FusedFrame {
-        id: record.frame.id.clone(),
-        camera_frame_id: record.frame.frame_id.clone(),
+        id: answer.id.clone(),
+        camera_frame_id: answer.camera_frame_id.clone(),
         apples: observations.filter(|o| o.frame == k).count(),
         shared,
         shift: (k > 0 && shared > 0).then(|| priors.shift(estimate, k, gate)),
@@ -107,35 +108,35 @@ fn fused_frame(
     }
 }
 
-fn check(frames: &[PosedFrame<'_>]) -> Result<(), FusionError> {
+fn check(frames: &[PosedAnswer<'_>]) -> Result<(), FusionError> {
     if frames.len() < 2 {
         return Err(FusionError::TooFew {
             count: frames.len(),
         });
     }
     for (k, frame) in frames.iter().enumerate() {
-        let (of, pose) = (&frame.record.frame, frame.robot_from_camera);
-        if pose.from != of.frame_id {
+        let (answer, pose) = (frame.answer, frame.robot_from_camera);
+        if pose.from != answer.camera_frame_id {
             return Err(FusionError::WrongPose {
-                frame: of.id.clone(),
-                camera: of.frame_id.clone(),
+                frame: answer.id.clone(),
+                camera: answer.camera_frame_id.clone(),
                 from: pose.from.clone(),
             });
         }
         for earlier in &frames[..k] {
-            let before = &earlier.record.frame;
+            let before = earlier.answer;
             if earlier.robot_from_camera.to != pose.to {
                 return Err(FusionError::DifferentRobots {
                     first: before.id.clone(),
                     first_to: earlier.robot_from_camera.to.clone(),
-                    second: of.id.clone(),
+                    second: answer.id.clone(),
                     second_to: pose.to.clone(),
                 });
             }
-            if before.id == of.id || same_apples(earlier.record, frame.record) {
+            if before.id == answer.id || same_apples(before, answer) {
                 return Err(FusionError::SameFrame {
                     first: before.id.clone(),
-                    second: of.id.clone(),
+                    second: answer.id.clone(),
                 });
             }
         }
@@ -144,11 +145,11 @@ fn check(frames: &[PosedFrame<'_>]) -> Result<(), FusionError> {
 }
 
 /// Noise never repeats all centres to the last digit.
-fn same_apples(a: &Record, b: &Record) -> bool {
-    let centers = |r: &Record| -> Vec<[f64; 3]> {
-        r.picks
-            .iter()
-            .filter_map(|p| Some(p.apple.as_ref()?.center))
+fn same_apples(a: &FrameAnswer, b: &FrameAnswer) -> bool {
+    let centers = |answer: &FrameAnswer| -> Vec<Position<CameraFrame>> {
+        let apples = answer.apples.iter();
+        apples
+            .filter_map(|a| Some(a.apple.as_ref()?.center))
             .collect()
     };
     let (a, b) = (centers(a), centers(b));

@@ -122,11 +122,7 @@ impl<'a> JointEstimate<'a> {
     }
 
     /// Covariance that two positions have in common because they follow the same motions.
-    fn common(
-        &self,
-        a: &[(usize, Matrix3x6<f64>)],
-        b: &[(usize, Matrix3x6<f64>)],
-    ) -> Matrix3<f64> {
+    fn common(&self, a: &[(usize, Matrix3x6<f64>)], b: &[(usize, Matrix3x6<f64>)]) -> Matrix3<f64> {
         let mut sum = Matrix3::zeros();
         for (f, gain) in a {
             for (g, other) in b {

@@ -32,7 +32,13 @@ impl MotionPriors {
         let sway = sway(config);
         let covariances = stated
             .iter()
-            .map(|error| if at_rest { sway } else { symmetric(&(error + sway)) })
+            .map(|error| {
+                if at_rest {
+                    sway
+                } else {
+                    symmetric(&(error + sway))
+                }
+            })
             .collect();
         Self {
             at_rest,

@@ -1,8 +1,8 @@
 //! One apple as one frame shows it, in the robot's frame.
 
-use nalgebra::{Matrix3, Point3, Vector3};
-use pomona::{FusionConfig, Pick, RobotFromCamera, Status};
-use pomona_transforms::{CameraFrame, Direction, Position, RobotFrame};
+use nalgebra::{Matrix3, Vector3};
+use pomona::{AppleAnswer, FusionConfig, PickDirection, RobotFromCamera, Status};
+use pomona_transforms::{Direction, RobotFrame};
 
 /// Smallest standard deviation of a centre or a radius, metres: keeps covariances invertible where the floors are 0.
 const MIN_LENGTH_SD_M: f64 = 1e-5;
@@ -45,76 +45,69 @@ pub(crate) struct ObservedDirection {
 }
 
 impl Observation {
-    /// `None` where the pick has no apple, or one with numbers that are not finite or not positive.
+    /// `None` where the answer has no apple, or one with numbers that are not finite or not positive.
     pub(crate) fn new(
         frame: usize,
-        pick: &Pick,
+        answer: &AppleAnswer,
         pose: &RobotFromCamera,
         config: &FusionConfig,
     ) -> Option<Self> {
-        let apple = pick.apple.as_ref()?;
-        let center = Position::<CameraFrame>::new(Point3::from(apple.center));
-        let center = pose.transform.position(&center).point().coords;
-        if !center.iter().all(|c| c.is_finite()) || !(apple.radius > 0.0) {
+        let apple = answer.apple.as_ref()?;
+        let transform = &pose.transform;
+        let center = transform.position(&apple.center).point().coords;
+        if !center.iter().all(|c| c.is_finite()) || !(apple.radius_m > 0.0) {
             return None;
         }
         let own = apple.center_covariance.map_or_else(
             || Matrix3::identity() * config.center_sd_m.powi(2),
-            Matrix3::from,
+            |own| own.rotated(transform).matrix_m2(),
         );
         let floor = config.center_floor_m.max(MIN_LENGTH_SD_M);
-        let rotation = pose.transform.rotation().to_rotation_matrix().into_inner();
-        let rotated = rotation * own * rotation.transpose();
-        let covariance =
-            (rotated + rotated.transpose()) * 0.5 + Matrix3::identity() * floor.powi(2);
+        let covariance = own + Matrix3::identity() * floor.powi(2);
         covariance.cholesky()?;
-        let radius_sd = apple.radius_sd.unwrap_or(config.center_sd_m);
+        let radius_sd = apple.radius_sd_m.unwrap_or(config.center_sd_m);
         let radius_floor = config.radius_floor_m.max(MIN_LENGTH_SD_M);
-        let to_robot =
-            |v: [f64; 3]| Direction::new(Vector3::from(v)).map(|d| pose.transform.direction(&d));
-        let direction = pick
-            .direction
-            .filter(|_| pick.status == Status::Picked)
-            .and_then(to_robot)
-            .map(|direction| ObservedDirection {
-                direction,
-                sd_rad: direction_sd(pick.direction_sd, &direction, pose, config),
-                confidence: pick
-                    .confidence
-                    .unwrap_or(config.confidence)
-                    .clamp(CONFIDENCE_RANGE.0, CONFIDENCE_RANGE.1),
-            });
-        let foot = pick.foot.filter(|_| direction.is_some());
+        let stated = answer.confidence.unwrap_or(config.confidence);
+        let confidence = stated.clamp(CONFIDENCE_RANGE.0, CONFIDENCE_RANGE.1);
         Some(Self {
             frame,
-            pick: pick.id,
-            status: pick.status,
+            pick: answer.id,
+            status: answer.status,
             center,
             covariance,
-            radius_m: apple.radius,
+            radius_m: apple.radius_m,
             radius_variance_m2: radius_sd.powi(2) + radius_floor.powi(2),
             visible_fraction: apple.visible_share.unwrap_or(1.0),
-            direction,
-            foot_distance_m: foot.map(|f| (Vector3::from(f) - Vector3::from(apple.center)).norm()),
-            next_view: pick.view_from.and_then(to_robot),
+            direction: answer
+                .pick
+                .map(|pick| ObservedDirection::new(&pick, confidence, pose, config)),
+            foot_distance_m: answer.pick.map(|pick| pick.foot.distance(&apple.center)),
+            next_view: answer.view_from.map(|view| transform.direction(&view)),
         })
     }
 }
 
-/// Standard deviation of a direction from its own error, the floor, and the rotation error of the pose across it.
-fn direction_sd(
-    stated_rad: Option<f64>,
-    direction: &Direction<RobotFrame>,
-    pose: &RobotFromCamera,
-    config: &FusionConfig,
-) -> f64 {
-    let own = stated_rad.unwrap_or(config.direction_sd_rad);
-    let rotation = pose.uncertain().rotation_covariance_rad2();
-    let along = direction.vector().dot(&(rotation * direction.vector()));
-    let across = (0.5 * (rotation.trace() - along)).max(0.0);
-    (own.powi(2) + config.direction_floor_rad.powi(2) + across)
-        .sqrt()
-        .max(MIN_DIRECTION_SD_RAD)
+impl ObservedDirection {
+    /// Its variance is the sum of the direction's own, of the floor, and of the pose's rotation error across it.
+    fn new(
+        pick: &PickDirection,
+        confidence: f64,
+        pose: &RobotFromCamera,
+        config: &FusionConfig,
+    ) -> Self {
+        let direction = pose.transform.direction(&pick.direction);
+        let own = pick.sd_rad.unwrap_or(config.direction_sd_rad);
+        let rotation = pose.uncertain().rotation_covariance_rad2();
+        let along = direction.vector().dot(&(rotation * direction.vector()));
+        // The two axes across the direction share the rest of the trace.
+        let across = (0.5 * (rotation.trace() - along)).max(0.0);
+        let variance = own.powi(2) + config.direction_floor_rad.powi(2) + across;
+        Self {
+            direction,
+            sd_rad: variance.sqrt().max(MIN_DIRECTION_SD_RAD),
+            confidence,
+        }
+    }
 }
 
 /// The centroid of all observations, metres.

@@ -287,7 +287,9 @@ mod tests {
     #[test]
     fn the_schema_in_docs_is_that_of_the_types() {
         let settings = schemars::generate::SchemaSettings::draft2020_12().for_serialize();
-        let mut schema = settings.into_generator().into_root_schema_for::<FusedRecord>();
+        let mut schema = settings
+            .into_generator()
+            .into_root_schema_for::<FusedRecord>();
         schema.insert("title".into(), FUSED_SCHEMA.into());
         schema.insert(
             "$id".into(),
@@ -299,6 +301,9 @@ mod tests {
             std::fs::write(&path, &text).unwrap();
         }
         let kept = std::fs::read_to_string(&path).unwrap();
-        assert!(kept == text, "docs/fused.schema.json is not what the types say: UPDATE_SCHEMAS=1 writes it anew");
+        assert!(
+            kept == text,
+            "docs/fused.schema.json is not what the types say: UPDATE_SCHEMAS=1 writes it anew"
+        );
     }
 }

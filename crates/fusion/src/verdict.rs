@@ -110,7 +110,8 @@ mod tests {
     #[test]
     fn contradicted_directions_need_even_odds_and_others_the_least_confidence() {
         let two = [Status::Picked, Status::Picked];
-        let of = |confidence, agreeing: &[bool]| verdict(&two, Some(&combined(confidence, agreeing)));
+        let of =
+            |confidence, agreeing: &[bool]| verdict(&two, Some(&combined(confidence, agreeing)));
         assert_eq!(of(0.4, &[true, true]).0, FusedStatus::Picked);
         assert_eq!(of(0.3, &[true, true]).0, FusedStatus::Unsure);
         assert_eq!(of(0.6, &[true, false]).0, FusedStatus::Picked);

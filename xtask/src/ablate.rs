@@ -4,17 +4,18 @@
 //! idea off (`xtask/ablation.toml`), and prints Markdown.
 
 mod table;
+mod variants;
 
-use crate::workspace::{cargo, root};
+use crate::{
+    program::{Build, Program},
+    workspace::root,
+};
 use anyhow::{Context, Result, bail, ensure};
-use serde::Deserialize;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
+use variants::{Ablation, METHOD, VARIANTS, Variant};
 
-const VARIANTS: &str = "xtask/ablation.toml";
 const OUT: &str = "target/ablate";
-/// The method whose ideas are switched off.
-const METHOD: &str = "robust";
 
 /// What to run.
 #[derive(clap::Args)]
@@ -28,55 +29,6 @@ pub(crate) struct Args {
     /// Only this variant; may be repeated
     #[arg(long = "variant", value_name = "NAME")]
     variants: Vec<String>,
-}
-
-/// What `xtask/ablation.toml` holds.
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Ablation {
-    /// Suites that are run where none is asked for.
-    suites: Vec<String>,
-    /// The variants, in the order of the table.
-    #[serde(rename = "variant")]
-    variants: Vec<Variant>,
-}
-
-/// Settings that switch one idea off.
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Variant {
-    /// Name in the table.
-    name: String,
-    /// What is off.
-    off: String,
-    /// Settings of the method that differ from their defaults.
-    robust: toml::Table,
-}
-
-impl Ablation {
-    fn read() -> Result<Self> {
-        let path = root().join(VARIANTS);
-        let text = std::fs::read_to_string(&path).with_context(|| VARIANTS)?;
-        let ablation: Self = toml::from_str(&text).with_context(|| VARIANTS)?;
-        for (i, variant) in ablation.variants.iter().enumerate() {
-            let name = &variant.name;
-            let plain = |c: char| c.is_ascii_alphanumeric() || c == '-';
-            ensure!(
-                !name.is_empty() && name.chars().all(plain),
-                "{VARIANTS}: `{name}` is to be of letters, digits and hyphens"
-            );
-            let twice = ablation.variants[i + 1..].iter().any(|v| v.name == *name);
-            ensure!(
-                !twice && name != METHOD,
-                "{VARIANTS}: `{name}` stands twice"
-            );
-            ensure!(
-                !variant.robust.is_empty(),
-                "{VARIANTS}: `{name}` changes nothing"
-            );
-        }
-        Ok(ablation)
-    }
 }
 
 /// Runs the variants and prints a table for each suite.
@@ -95,13 +47,14 @@ pub(crate) fn run(args: &Args) -> Result<()> {
         .filter(|v| args.variants.is_empty() || args.variants.contains(&v.name))
         .collect();
     let files = write(&chosen)?;
+    let program = Program::build(Build::Release)?;
     let suites = if args.suites.is_empty() {
         &ablation.suites
     } else {
         &args.suites
     };
     for suite in suites {
-        let evaluation = evaluate(suite, args.count, &files)?;
+        let evaluation = evaluate(&program, suite, args.count, &files)?;
         println!("{}", table::of(suite, &evaluation, &chosen)?);
     }
     Ok(())
@@ -123,12 +76,16 @@ fn write(variants: &[&Variant]) -> Result<Vec<PathBuf>> {
     variants.iter().map(write).collect()
 }
 
-fn evaluate(suite: &str, count: Option<usize>, variants: &[PathBuf]) -> Result<Value> {
+fn evaluate(
+    program: &Program,
+    suite: &str,
+    count: Option<usize>,
+    variants: &[PathBuf],
+) -> Result<Value> {
     let out = Path::new(OUT).join(suite);
-    let mut command = cargo();
+    let mut command = program.command();
     command
-        .args(["run", "--release", "--quiet", "--package", "pomona-cli"])
-        .args(["--", "evaluate", suite, "--method", METHOD, "--out"])
+        .args(["evaluate", suite, "--method", METHOD, "--out"])
         .arg(&out);
     for variant in variants {
         command.arg("--variant").arg(variant);
@@ -136,22 +93,10 @@ fn evaluate(suite: &str, count: Option<usize>, variants: &[PathBuf]) -> Result<V
     if let Some(count) = count {
         command.args(["--count", &count.to_string()]);
     }
-    let run = command.output().context("cannot start cargo")?;
+    let run = command.output().context("cannot start the program")?;
     let errors = String::from_utf8_lossy(&run.stderr);
     ensure!(run.status.success(), "{suite}: {}", errors.trim_end());
     let path = root().join(out).join("evaluation.json");
     let what = || path.display().to_string();
     serde_json::from_str(&std::fs::read_to_string(&path).with_context(what)?).with_context(what)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_variants_are_sound() {
-        let ablation = Ablation::read().unwrap();
-        assert!(!ablation.suites.is_empty());
-        assert!(ablation.variants.len() >= 10);
-    }
 }

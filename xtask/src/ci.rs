@@ -1,7 +1,7 @@
 //! `cargo xtask ci`: everything that a change must pass.
 
 use crate::{
-    regress, standalone, tidy,
+    docs, regress, standalone, tidy,
     workspace::{Package, Workspace, cargo},
 };
 use anyhow::{Context, Result, bail, ensure};
@@ -88,8 +88,12 @@ fn steps(workspace: &Workspace) -> Vec<Step> {
     steps.push(Step::own("standalone", "standalone", || {
         standalone::run(&standalone::Args::default())
     }));
-    steps.push(Step::own("regress", "regress", || {
-        regress::run(&regress::Args::default())
+    // Both run the program as the tests have built it.
+    steps.push(Step::own("regress", "regress --build tested", || {
+        regress::run(&regress::Args::TESTED)
+    }));
+    steps.push(Step::own("docs", "docs --check --build tested", || {
+        docs::run(&docs::Args::CHECK)
     }));
     steps
 }
@@ -191,7 +195,8 @@ mod tests {
             "RUSTDOCFLAGS=\"-D warnings\" cargo doc --workspace --no-deps"
         );
         assert_eq!(lines[5], "cargo xtask standalone");
-        assert_eq!(lines[6], "cargo xtask regress");
+        assert_eq!(lines[6], "cargo xtask regress --build tested");
+        assert_eq!(lines[7], "cargo xtask docs --check --build tested");
     }
 
     #[test]

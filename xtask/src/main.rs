@@ -10,10 +10,14 @@
 mod ablate;
 mod bench;
 mod ci;
+mod docs;
+mod modules;
+mod program;
 mod regress;
 mod semver;
 mod source;
 mod standalone;
+mod survey;
 mod tidy;
 mod workspace;
 
@@ -34,6 +38,10 @@ enum Command {
     Ci,
     /// The rules that no compiler knows: layers, front pages, lengths, dependencies
     Tidy,
+    /// Fills README and docs with what the program prints
+    Docs(docs::Args),
+    /// How large each crate is, and how its modules depend on one another
+    Survey(survey::Args),
     /// How long it takes and how far off it is, ours and the peers'
     Bench(bench::Args),
     /// Golden runs and accuracy floors: did anything get worse?
@@ -50,6 +58,8 @@ fn main() -> ExitCode {
     let outcome = match Arguments::parse().command {
         Command::Ci => ci::run(),
         Command::Tidy => tidy::run(),
+        Command::Docs(args) => docs::run(&args),
+        Command::Survey(args) => survey::run(&args),
         Command::Bench(args) => bench::run(&args),
         Command::Regress(args) => regress::run(&args),
         Command::Ablate(args) => ablate::run(&args),

@@ -7,19 +7,22 @@ mod lab;
 mod side;
 mod table;
 
-use crate::workspace::{cargo, root};
+use crate::{
+    program::{Build, Program},
+    workspace::root,
+};
 use anyhow::{Context, Result, bail, ensure};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
-use xtask::gate::{Finding, Golden, Limits, SuiteLimits, Verdict, failures, judge};
+use xtask_gate::{Finding, Golden, Limits, SuiteLimits, Verdict, failures, judge};
 
 const LIMITS: &str = "xtask/regress.toml";
 const GOLDEN: &str = "fixtures/golden";
 const OUT: &str = "target/regress";
 
 /// What to run.
-#[derive(clap::Args, Default)]
+#[derive(clap::Args)]
 pub(crate) struct Args {
     /// Every suite, also those that take longer
     #[arg(long)]
@@ -30,9 +33,23 @@ pub(crate) struct Args {
     /// Take this run's values as the golden ones; limits and truth stay as they are
     #[arg(long)]
     bless: bool,
+    /// How the program is compiled
+    #[arg(long, value_enum, default_value_t)]
+    build: Build,
     /// Show every field, not only those that moved
     #[arg(long)]
     all: bool,
+}
+
+impl Args {
+    /// What `cargo xtask ci` asks for.
+    pub(crate) const TESTED: Self = Self {
+        full: false,
+        suite: None,
+        bless: false,
+        build: Build::Tested,
+        all: false,
+    };
 }
 
 /// Runs the suites and says what moved; an error where something is worse than it may be.
@@ -54,12 +71,12 @@ pub(crate) fn run(args: &Args) -> Result<()> {
             .collect();
         bail!("no such suite in {LIMITS}; there are {}", names.join(", "));
     }
-    build()?;
+    let program = Program::build(args.build)?;
     let golden_folder = root().join(GOLDEN);
     let mut findings: Vec<Finding> = Vec::new();
     for runs in together(&chosen) {
         let start = Instant::now();
-        let evaluation = evaluate(&runs)?;
+        let evaluation = evaluate(&program, &runs)?;
         let ids: Vec<String> = runs.iter().map(|suite| suite.id()).collect();
         let seconds = start.elapsed().as_secs_f64();
         println!("{}: {seconds:.1} s", ids.join(", "));
@@ -102,15 +119,6 @@ pub(crate) fn run(args: &Args) -> Result<()> {
     Ok(())
 }
 
-fn build() -> Result<()> {
-    let status = cargo()
-        .args(["build", "--release", "--quiet", "--package", "pomona-cli"])
-        .status()
-        .context("cannot start cargo")?;
-    ensure!(status.success(), "the program does not build");
-    Ok(())
-}
-
 /// Runs that ask for the same scenes and seed, whatever the method: each scene is made once.
 fn together<'a>(chosen: &[&'a SuiteLimits]) -> Vec<Vec<&'a SuiteLimits>> {
     let mut groups: Vec<Vec<&SuiteLimits>> = Vec::new();
@@ -125,25 +133,16 @@ fn together<'a>(chosen: &[&'a SuiteLimits]) -> Vec<Vec<&'a SuiteLimits>> {
 }
 
 /// Runs the program over one suite under the methods of `runs`, and reads what it wrote.
-fn evaluate(runs: &[&SuiteLimits]) -> Result<Value> {
+fn evaluate(program: &Program, runs: &[&SuiteLimits]) -> Result<Value> {
     let Some(suite) = runs.first() else {
         bail!("nothing to run");
     };
     let ids: Vec<String> = runs.iter().map(|run| run.id()).collect();
     let id = ids.join("+");
     let out: PathBuf = Path::new(OUT).join(&id);
-    let mut command = cargo();
+    let mut command = program.command();
     command
-        .args([
-            "run",
-            "--release",
-            "--quiet",
-            "--package",
-            "pomona-cli",
-            "--",
-            "evaluate",
-            &suite.name,
-        ])
+        .args(["evaluate", &suite.name])
         .args(["--seed", &suite.seed.to_string()])
         .arg("--out")
         .arg(&out);
@@ -153,7 +152,7 @@ fn evaluate(runs: &[&SuiteLimits]) -> Result<Value> {
     if let Some(count) = suite.count {
         command.args(["--count", &count.to_string()]);
     }
-    let run = command.output().context("cannot start cargo")?;
+    let run = command.output().context("cannot start the program")?;
     let errors = String::from_utf8_lossy(&run.stderr);
     ensure!(run.status.success(), "{id}: {}", errors.trim_end());
     let path = root().join(out).join("evaluation.json");

@@ -1,7 +1,9 @@
 //! `cargo xtask tidy`: the rules that no compiler knows.
 
+mod circles;
 mod dependencies;
 mod exceptions;
+mod finding;
 mod front_pages;
 mod layers;
 mod lengths;
@@ -10,37 +12,11 @@ mod standalone;
 mod words;
 
 use crate::{
-    source::{self, Source},
+    source,
     workspace::{self, Workspace},
 };
 use anyhow::{Result, bail};
-use std::{fmt, path::Path};
-
-/// A place where a rule is broken.
-struct Finding {
-    /// `file` or `file:line`, relative to the workspace's root.
-    place: String,
-    /// What is wrong there.
-    fault: String,
-    /// What to do about it.
-    remedy: String,
-}
-
-impl Finding {
-    fn new(place: impl Into<String>, fault: impl Into<String>, remedy: impl Into<String>) -> Self {
-        Self {
-            place: place.into(),
-            fault: fault.into(),
-            remedy: remedy.into(),
-        }
-    }
-}
-
-impl fmt::Display for Finding {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: {}\n    {}", self.place, self.fault, self.remedy)
-    }
-}
+use finding::Finding;
 
 /// Prints what is wrong, if anything.
 pub(crate) fn run() -> Result<()> {
@@ -60,6 +36,7 @@ fn findings() -> Result<Vec<Finding>> {
     let workspace = Workspace::read()?;
     let sources = source::read_all(workspace::root())?;
     let mut findings = layers::check(&workspace);
+    findings.extend(circles::check(&workspace, &sources)?);
     findings.extend(dependencies::check(&workspace, &sources)?);
     findings.extend(front_pages::check(&workspace, &sources));
     findings.extend(lengths::check(&sources));
@@ -67,25 +44,6 @@ fn findings() -> Result<Vec<Finding>> {
     findings.extend(standalone::check(&workspace)?);
     findings.extend(words::check(&sources));
     Ok(findings)
-}
-
-/// `file:line`
-fn at(path: &Path, line: usize) -> String {
-    format!("{}:{line}", path.display())
-}
-
-/// The line of a manifest that begins with this key.
-fn key_at(path: &Path, text: &str, key: &str) -> String {
-    let begins = |line: &str| {
-        let rest = line.trim_start().strip_prefix(key);
-        rest.is_some_and(|rest| rest.starts_with(['.', ' ', '=']))
-    };
-    let line = text.lines().position(begins);
-    line.map_or_else(|| path.display().to_string(), |line| at(path, line + 1))
-}
-
-fn source_at<'a>(sources: &'a [Source], path: &Path) -> Option<&'a Source> {
-    sources.iter().find(|source| source.path == path)
 }
 
 #[cfg(test)]

@@ -46,7 +46,13 @@ pub(crate) struct Target {
 impl Workspace {
     /// Asks cargo.
     pub(crate) fn read() -> Result<Self> {
+        Self::read_at(root())
+    }
+
+    /// Asks cargo about another checkout.
+    pub(crate) fn read_at(root: &Path) -> Result<Self> {
         let output = cargo()
+            .current_dir(root)
             .args(["metadata", "--format-version=1", "--no-deps"])
             .output()
             .context("cannot start cargo")?;
@@ -75,6 +81,16 @@ impl Package {
         let mut targets = self.targets.iter();
         let target = targets.find(|target| target.kind.iter().any(|k| k == kind))?;
         Some(&target.src_path)
+    }
+
+    /// The root source files of its library and its programs.
+    pub(crate) fn roots(&self) -> impl Iterator<Item = &Path> {
+        let kind = |kind: &String| kind == "lib" || kind == "bin";
+        let targets = self
+            .targets
+            .iter()
+            .filter(move |target| target.kind.iter().any(kind));
+        targets.map(|target| target.src_path.as_path())
     }
 }
 

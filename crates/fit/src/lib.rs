@@ -61,6 +61,7 @@ mod moments;
 mod plane;
 mod points;
 mod prior;
+mod shared_methods;
 mod simd;
 mod sphere;
 

@@ -3,7 +3,6 @@
 use crate::answer::{
     DirectionUse, FusedApple, FusedDirection, FusedObservation, FusedStatus, Movement, PositionUse,
 };
-use crate::chi_square::bound_2;
 use crate::direction::{CombinedDirection, combine};
 use crate::joint::{JointEstimate, jacobian};
 use crate::links::{Link, links};
@@ -11,6 +10,7 @@ use crate::observation::{Observation, ObservedDirection, mean_radius};
 use crate::verdict::Findings;
 use nalgebra::{Matrix3, Matrix6, Point3, Vector3};
 use pomona::{FusionConfig, Status};
+use pomona_statistics::chi_square_critical;
 use pomona_transforms::{Position, RobotFrame, UncertainPosition};
 
 /// Movements shorter than this have no direction along which to give a standard deviation, metres.
@@ -140,7 +140,7 @@ impl AppleFusion<'_> {
             .iter()
             .filter_map(|&i| Some((i, self.observation(i).direction?)))
             .unzip();
-        let gate = bound_2(self.config.direction_rate);
+        let gate = chi_square_critical(self.config.direction_rate, 2);
         Directions {
             observations,
             combined: combine(&directions, gate, self.config.repeated_error),

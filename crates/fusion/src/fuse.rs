@@ -1,12 +1,12 @@
 use crate::answer::{FusedFrame, FusedTree};
 use crate::apple::AppleFusion;
 use crate::association::Association;
-use crate::chi_square::bound_3;
 use crate::error::FusionError;
 use crate::joint::JointEstimate;
 use crate::motion::{MotionPriors, correction};
 use crate::observation::{Observation, centroid};
 use pomona::{FrameAnswer, FusionConfig, RobotFromCamera};
+use pomona_statistics::chi_square_critical;
 use pomona_transforms::{CameraFrame, Position};
 
 /// The answers for one frame and the pose of its camera.
@@ -64,7 +64,7 @@ pub fn fuse(frames: &[PosedAnswer<'_>], config: &FusionConfig) -> Result<FusedTr
         .collect();
     let poses: Vec<&RobotFromCamera> = frames.iter().map(|f| f.robot_from_camera).collect();
     let priors = MotionPriors::new(&poses, &centroid(&observations), config);
-    let gate = bound_3(config.moved_rate);
+    let gate = chi_square_critical(config.moved_rate, 3);
     let association = Association {
         observations: &observations,
         priors: &priors.covariances,

@@ -58,7 +58,6 @@
 mod answer;
 mod apple;
 mod association;
-mod chi_square;
 mod cloud;
 mod direction;
 mod error;

@@ -277,33 +277,3 @@ impl From<&FusedObservation> for SightingRecord {
         }
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use std::path::Path;
-
-    /// The file in `docs/` is what the types say; `UPDATE_SCHEMAS=1 cargo test -p pomona-fusion` writes it anew.
-    #[test]
-    fn the_schema_in_docs_is_that_of_the_types() {
-        let settings = schemars::generate::SchemaSettings::draft2020_12().for_serialize();
-        let mut schema = settings
-            .into_generator()
-            .into_root_schema_for::<FusedRecord>();
-        schema.insert("title".into(), FUSED_SCHEMA.into());
-        schema.insert(
-            "$id".into(),
-            "https://github.com/pomona-rs/pomona/blob/main/docs/fused.schema.json".into(),
-        );
-        let text = serde_json::to_string_pretty(&schema).unwrap() + "\n";
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/fused.schema.json");
-        if std::env::var_os("UPDATE_SCHEMAS").is_some() {
-            std::fs::write(&path, &text).unwrap();
-        }
-        let kept = std::fs::read_to_string(&path).unwrap();
-        assert!(
-            kept == text,
-            "docs/fused.schema.json is not what the types say: UPDATE_SCHEMAS=1 writes it anew"
-        );
-    }
-}

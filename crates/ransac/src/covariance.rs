@@ -1,4 +1,4 @@
-use crate::linearization::{MAX_PARAMETERS, TRIANGLE, place};
+use crate::triangle::{MAX_PARAMETERS, TRIANGLE, place};
 
 /// How far a model's parameters may be off: their covariance matrix.
 ///

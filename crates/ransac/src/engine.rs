@@ -1,14 +1,9 @@
-use crate::{
-    Chain, Constraints, Estimator, FixedCount, LocalOptimization, Lossless, NoRefit, Preemption,
-    RansacError, Report, Sampler, Scored, Scorer, Stopping, Unconstrained, Uniform, Workspace,
-    runners_up::Keep, search::Search,
-};
-use rand_core::Rng;
+use crate::{Chain, FixedCount, Lossless, NoRefit, Unconstrained, Uniform, settings::Settings};
 
 /// A search, put together from its parts.
 ///
 /// By default samples are uniform, nothing is constrained or refitted, models are
-/// given up by the lossless bound alone, and the search ends after 1000 hypotheses.
+/// abandoned by the lossless bound alone, and the search ends after 1000 hypotheses.
 #[derive(Clone, Copy, Debug)]
 pub struct Ransac<S, P = Uniform, C = Unconstrained, L = NoRefit, T = FixedCount, B = Lossless> {
     pub(crate) scorer: S,
@@ -20,16 +15,12 @@ pub struct Ransac<S, P = Uniform, C = Unconstrained, L = NoRefit, T = FixedCount
     pub(crate) settings: Settings,
 }
 
-/// What is a number and not a part.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Settings {
-    pub(crate) min_inliers: usize,
-    /// Iterations that one thread computes in a round at most.
-    pub(crate) round: usize,
-    /// Threads that share a round.
-    pub(crate) threads: usize,
-    /// Whether the report has the noise and the covariance.
-    pub(crate) covariance: bool,
+/// The search with one part replaced by another of any type; the parts that stay are named.
+macro_rules! with_part {
+    ($search:ident, $new:ident; $($kept:ident),*) => {{
+        let Self { $($kept,)* .. } = $search;
+        Ransac { $new, $($kept),* }
+    }};
 }
 
 impl<S> Ransac<S> {
@@ -42,134 +33,44 @@ impl<S> Ransac<S> {
             local: NoRefit,
             stopping: FixedCount::new(1000),
             preemption: Lossless::default(),
-            settings: Settings {
-                min_inliers: 0,
-                round: 32,
-                threads: 1,
-                covariance: true,
-            },
+            settings: Settings::default(),
         }
     }
 }
 
 impl<S, P, C, L, T, B> Ransac<S, P, C, L, T, B> {
-    /// Takes samples from `sampler`.
+    /// Draws samples with `sampler`.
     #[must_use]
     pub fn sampler<Q>(self, sampler: Q) -> Ransac<S, Q, C, L, T, B> {
-        let Self {
-            scorer,
-            constraints,
-            local,
-            stopping,
-            preemption,
-            settings,
-            ..
-        } = self;
-        Ransac {
-            scorer,
-            sampler,
-            constraints,
-            local,
-            stopping,
-            preemption,
-            settings,
-        }
+        with_part!(self, sampler; scorer, constraints, local, stopping, preemption, settings)
     }
 
     /// Adds a constraint to those there are; they are asked in the order added.
     #[must_use]
     pub fn constraint<D>(self, constraint: D) -> Ransac<S, P, Chain<C, D>, L, T, B> {
-        let Self {
-            scorer,
-            sampler,
-            constraints,
-            local,
-            stopping,
-            preemption,
-            settings,
-        } = self;
         let constraints = Chain {
-            earlier: constraints,
+            earlier: self.constraints,
             last: constraint,
         };
-        Ransac {
-            scorer,
-            sampler,
-            constraints,
-            local,
-            stopping,
-            preemption,
-            settings,
-        }
+        with_part!(self, constraints; scorer, sampler, local, stopping, preemption, settings)
     }
 
-    /// Betters models by `local`.
+    /// Improves models with `local`.
     #[must_use]
     pub fn local_optimization<M>(self, local: M) -> Ransac<S, P, C, M, T, B> {
-        let Self {
-            scorer,
-            sampler,
-            constraints,
-            stopping,
-            preemption,
-            settings,
-            ..
-        } = self;
-        Ransac {
-            scorer,
-            sampler,
-            constraints,
-            local,
-            stopping,
-            preemption,
-            settings,
-        }
+        with_part!(self, local; scorer, sampler, constraints, stopping, preemption, settings)
     }
 
-    /// Ends by `stopping`.
+    /// Ends the search by the rule `stopping`.
     #[must_use]
     pub fn stopping<U>(self, stopping: U) -> Ransac<S, P, C, L, U, B> {
-        let Self {
-            scorer,
-            sampler,
-            constraints,
-            local,
-            preemption,
-            settings,
-            ..
-        } = self;
-        Ransac {
-            scorer,
-            sampler,
-            constraints,
-            local,
-            stopping,
-            preemption,
-            settings,
-        }
+        with_part!(self, stopping; scorer, sampler, constraints, local, preemption, settings)
     }
 
-    /// Gives models up by `preemption`.
+    /// Rejects hopeless models early by the rule `preemption`.
     #[must_use]
     pub fn preemption<A>(self, preemption: A) -> Ransac<S, P, C, L, T, A> {
-        let Self {
-            scorer,
-            sampler,
-            constraints,
-            local,
-            stopping,
-            settings,
-            ..
-        } = self;
-        Ransac {
-            scorer,
-            sampler,
-            constraints,
-            local,
-            stopping,
-            preemption,
-            settings,
-        }
+        with_part!(self, preemption; scorer, sampler, constraints, local, stopping, settings)
     }
 
     /// Gives no model with fewer inliers than this, or than a minimal sample has.
@@ -193,7 +94,7 @@ impl<S, P, C, L, T, B> Ransac<S, P, C, L, T, B> {
     /// date; 32 by default, and 0 is taken as 1.
     ///
     /// Only the speed depends on it. A long round reads the data less often and lets the threads
-    /// meet less often; a short one gives up hopeless models by a fresher bound.
+    /// meet less often; a short one abandons hopeless models by a fresher bound.
     #[must_use]
     pub fn round(mut self, iterations: usize) -> Self {
         self.settings.round = iterations.max(1);
@@ -216,85 +117,5 @@ impl<S, P, C, L, T, B> Ransac<S, P, C, L, T, B> {
     #[must_use]
     pub fn parallel(self) -> Self {
         self.threads(rayon::current_num_threads())
-    }
-
-    /// Searches. One number is taken from `rng`, and the outcome depends on it and the data alone.
-    ///
-    /// # Errors
-    ///
-    /// [`RansacError`] says why there is no model: too few data, samples that are all
-    /// degenerate, constraints never met, too few inliers.
-    pub fn run<E, R>(&self, estimator: &E, rng: &mut R) -> Result<Report<E::Model>, RansacError>
-    where
-        E: Estimator,
-        R: Rng + ?Sized,
-        P: Sampler<E>,
-        S: Scorer<E>,
-        C: Constraints<E>,
-        L: LocalOptimization<E>,
-        T: Stopping,
-        B: Preemption,
-    {
-        let mut workspace = Workspace::new();
-        Search::new(self, estimator, &mut workspace, rng.next_u64()).report()
-    }
-
-    /// The same search in memory that is used again and again; the report stays in the workspace.
-    ///
-    /// # Errors
-    ///
-    /// As [`run`](Self::run).
-    pub fn run_with<'w, E, R>(
-        &self,
-        workspace: &'w mut Workspace<E::Model>,
-        estimator: &E,
-        rng: &mut R,
-    ) -> Result<&'w Report<E::Model>, RansacError>
-    where
-        E: Estimator,
-        R: Rng + ?Sized,
-        P: Sampler<E>,
-        S: Scorer<E>,
-        C: Constraints<E>,
-        L: LocalOptimization<E>,
-        T: Stopping,
-        B: Preemption,
-    {
-        let report = Search::new(self, estimator, workspace, rng.next_u64()).report()?;
-        Ok(workspace.report.insert(report))
-    }
-
-    /// Searches, and gives not the best model alone but up to `models`, and 1000 at most, that differ: the best hypothesis
-    /// and those next to it, however low their scores, each after its last refit.
-    ///
-    /// They are the candidates among which a [`Competition`](crate::Competition) chooses. No hypothesis is given up by
-    /// the lossless bound, and a rule that waits to be confident of the best model ends too early for the
-    /// smaller ones: better a [`FixedCount`]. One number is taken from `rng`.
-    ///
-    /// # Errors
-    ///
-    /// As [`run`](Self::run); few inliers are none.
-    pub fn candidates<E, R>(
-        &self,
-        estimator: &E,
-        models: usize,
-        rng: &mut R,
-    ) -> Result<Vec<Scored<E::Model>>, RansacError>
-    where
-        E: Estimator,
-        R: Rng + ?Sized,
-        P: Sampler<E>,
-        S: Scorer<E>,
-        C: Constraints<E>,
-        L: LocalOptimization<E>,
-        T: Stopping,
-        B: Preemption,
-    {
-        let mut workspace = Workspace::new();
-        let keep = Keep {
-            models: models.saturating_sub(1),
-            share: 0.0,
-        };
-        Search::keeping(keep, self, estimator, &mut workspace, rng.next_u64()).candidates()
     }
 }

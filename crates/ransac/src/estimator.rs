@@ -4,7 +4,7 @@ use std::ops::Range;
 /// How many data one scoring call sees at most: a block.
 ///
 /// A thousand points of three f32 coordinates are 12 kB, which stay in the first-level
-/// cache, and between blocks the engine may give up on a model.
+/// cache, and between blocks the engine may abandon a model.
 pub const BLOCK: usize = 1024;
 
 /// A model to fit, and a view of the data to fit it to.
@@ -164,7 +164,7 @@ pub trait Estimator: Sync {
     }
 }
 
-/// How many data the first block has: few, so that a hopeless model is given up early.
+/// How many data the first block has: few, so that a hopeless model is abandoned early.
 pub(crate) const FIRST_BLOCK: usize = 128;
 
 /// The data `0..len` in blocks that end at 128, 256, 512, 1024, 2048, 3072, ...

@@ -120,14 +120,17 @@ mod local;
 mod noise;
 mod preemption;
 mod report;
+mod run;
 mod runners_up;
 mod sampler;
 mod scorer;
 mod search;
+mod settings;
 mod shuffle;
 mod stopping;
 mod structures;
 mod time_budget;
+mod triangle;
 mod workspace;
 
 pub use candidates::Candidates;
@@ -138,7 +141,7 @@ pub use draws::Draws;
 pub use engine::Ransac;
 pub use error::RansacError;
 pub use estimator::{BLOCK, Estimator};
-pub use linearization::{Linearization, MAX_PARAMETERS};
+pub use linearization::Linearization;
 pub use local::{
     LeastSquares, LocalOptimization, NearBest, NoRefit, Refiner, RefitOnce, Reweighted, Scored,
     Then,
@@ -156,6 +159,7 @@ pub use shuffle::Shuffle;
 pub use stopping::{Either, FixedCount, Progress, StopReason, Stopping, Until};
 pub use structures::{Competition, Ended, Extraction, Instance, Selection, Sequential};
 pub use time_budget::TimeBudget;
+pub use triangle::MAX_PARAMETERS;
 pub use workspace::Workspace;
 
 /// Pages beside the reference.

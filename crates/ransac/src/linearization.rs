@@ -1,15 +1,5 @@
 use crate::Covariance;
-
-/// How many parameters a model may have for its covariance to be computed.
-pub const MAX_PARAMETERS: usize = 12;
-
-/// Entries of the lower triangle of the largest matrix.
-pub(crate) const TRIANGLE: usize = MAX_PARAMETERS * (MAX_PARAMETERS + 1) / 2;
-
-/// Place of an entry of a lower triangle that is stored row by row; `column` is at most `row`.
-pub(crate) fn place(row: usize, column: usize) -> usize {
-    row * (row + 1) / 2 + column
-}
+use crate::triangle::{MAX_PARAMETERS, TRIANGLE, place};
 
 /// The normal matrix `JᵀWJ` and the sum of squares of a model's residuals, added up row by row.
 ///
@@ -43,7 +33,7 @@ pub struct Linearization {
 impl Linearization {
     /// No rows yet, of `parameters` columns.
     ///
-    /// No covariance comes of none, or of more than [`MAX_PARAMETERS`].
+    /// There is no covariance for 0 parameters, nor for more than [`MAX_PARAMETERS`].
     pub fn new(parameters: usize) -> Self {
         Self {
             parameters,

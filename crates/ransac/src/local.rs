@@ -103,7 +103,7 @@ impl<E: Estimator, S: Scorer<E>, C: Constraints<E>> Refiner<'_, E, S, C> {
     }
 }
 
-/// Betters a model by refitting it to its inliers.
+/// Improves a model by refitting it to its inliers.
 pub trait LocalOptimization<E: Estimator> {
     /// Called for each new best model of the search; leaves it as it is by default.
     fn improve<S: Scorer<E>, C: Constraints<E>>(

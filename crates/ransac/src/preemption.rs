@@ -21,14 +21,14 @@ pub struct Look {
 /// How often a [`Preemption`] that is not lossless looks at one model at most.
 pub const MAX_LOOKS: usize = 32;
 
-/// Decides when a model is given up before all data have been scored.
+/// Decides when a model is abandoned before all data have been scored.
 ///
 /// A hypothesis is first scored against the best score at the start of its round, and the
 /// gains at its looks are kept; when the round is merged, the rule is asked again with the
 /// best score that a search of one iteration after another would have had. So the outcome depends
 /// neither on the size of a round nor on the number of threads.
 pub trait Preemption: Sync {
-    /// Whether no model is ever given up whose score would have exceeded the bound.
+    /// Whether no model is ever abandoned whose score would have exceeded the bound.
     ///
     /// Such a rule need not be asked again, and may look more than [`MAX_LOOKS`] times.
     const LOSSLESS: bool = false;
@@ -106,7 +106,7 @@ impl Preemption for Exhaustive {
 ///
 /// # Guarantee
 ///
-/// Over the random order, a model that would exceed the bound is given up with a
+/// Over the random order, a model that would exceed the bound is abandoned with a
 /// probability of at most `error`, counted over all looks together. What a search
 /// loses is the best of its hypotheses, and that is one model: so without local optimisation, the
 /// whole search ends below the score of the lossless one with a probability of at most `error`,
@@ -118,13 +118,13 @@ impl Preemption for Exhaustive {
 /// without replacement with a probability of at most exp(−n kl(q, p)), where
 /// kl(q, p) = q ln(q/p) + (1−q) ln((1−q)/(1−p)) (Hoeffding 1963, theorem 1 and section 6,
 /// doi 10.1080/01621459.1963.10500830). The same holds for the N − n data unseen, which must then
-/// have a mean of at least r = (Np − nq)/(N − n): exp(−(N−n) kl(r, p)). A model is given up where
+/// have a mean of at least r = (Np − nq)/(N − n): exp(−(N−n) kl(r, p)). A model is abandoned where
 /// the smaller of the two, at p = bound/N, is at most `error` divided by the number of looks. Both
 /// fall with growing p, so that the bound itself is the worst case.
 ///
 /// Where a score counts inliers ([`Scorer::COUNTS`](crate::Scorer::COUNTS)) the probability is known: of the K inliers
 /// that the least score above the bound has, at most g are among the first n data with the probability of the hypergeometric
-/// distribution, a fraction of what Hoeffding's bound says. A model is given up where that is
+/// distribution, a fraction of what Hoeffding's bound says. A model is abandoned where that is
 /// at most `error` divided by the number of looks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Statistical {

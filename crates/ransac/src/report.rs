@@ -26,9 +26,9 @@ pub struct Counts {
     pub accepted: u64,
     /// Samples from which no model came.
     pub degenerate: u64,
-    /// Models scored, in full or until they were given up.
+    /// Models scored, in full or until they were abandoned.
     pub hypotheses: u64,
-    /// Of these, how many did not exceed the best score of their time, given up or not.
+    /// Of these, how many did not exceed the best score of their time, abandoned or not.
     pub pruned: u64,
     /// Refits tried.
     pub refits: u64,

@@ -1,4 +1,4 @@
-use crate::{Estimator, Report, engine::Settings, lane::Lane, runners_up::RunnersUp};
+use crate::{Estimator, Report, lane::Lane, runners_up::RunnersUp, settings::Settings};
 
 /// The memory of a search, to be used again by the next one.
 ///

@@ -1,4 +1,4 @@
-use super::{METHOD, Variant};
+use super::variants::{METHOD, Variant};
 use anyhow::{Context, Result};
 use serde_json::Value;
 use std::f64::consts::PI;

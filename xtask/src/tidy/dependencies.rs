@@ -3,7 +3,11 @@
 //!
 //! The engine inherits nothing; [`standalone`](super::standalone) holds it to the same tables.
 
-use super::{Finding, exceptions::UNNAMED_DEPENDENCIES, key_at, layers::ENGINE};
+use super::{
+    exceptions::UNNAMED_DEPENDENCIES,
+    finding::{Finding, key_at},
+    layers::ENGINE,
+};
 use crate::{
     source::{Source, has_word},
     workspace::{Package, Workspace},

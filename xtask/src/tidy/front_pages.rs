@@ -1,7 +1,7 @@
 //! Every crate opens with a front page; a library's has an example that runs,
 //! and its root file holds nothing but the page, the modules and the re-exports.
 
-use super::{Finding, at, source_at};
+use super::finding::{Finding, at, source_at};
 use crate::{source::Source, workspace::Workspace};
 
 /// What begins an item that is logic.

@@ -1,6 +1,9 @@
 //! No file is longer than a reader takes in at once.
 
-use super::{Finding, exceptions::LONG_FILES, source_at};
+use super::{
+    exceptions::LONG_FILES,
+    finding::{Finding, source_at},
+};
 use crate::source::Source;
 use std::path::Path;
 

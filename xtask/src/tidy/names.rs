@@ -1,6 +1,6 @@
 //! A file is named after what it holds.
 
-use super::Finding;
+use super::finding::Finding;
 use crate::source::Source;
 
 /// Names that say nothing.

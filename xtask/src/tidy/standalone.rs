@@ -1,6 +1,6 @@
 //! The engine's folder stands alone: its manifest inherits nothing, and says what the workspace says.
 
-use super::{Finding, dependencies::Manifest, layers::ENGINE};
+use super::{dependencies::Manifest, finding::Finding, layers::ENGINE};
 use crate::workspace::Workspace;
 use anyhow::{Context, Result};
 use std::{fs, path::Path};

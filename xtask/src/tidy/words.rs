@@ -1,6 +1,6 @@
 //! Nothing unfinished is left in the sources.
 
-use super::{Finding, at};
+use super::finding::{Finding, at};
 use crate::source::{Source, has_word};
 
 /// The words, each in two parts so that this file does not hold them.

@@ -4,6 +4,7 @@ use crate::cylinder::{CylinderChart, cylinder_held};
 use crate::held::HeldRefit;
 use crate::points::weighted;
 use crate::prior::Knowledge;
+use crate::shared_methods::{geometric_refits, held_refit, radius_prior, residuals_by_distance};
 use crate::{Coordinate, Points, PriorError, RadiusPrior, cylinder_through};
 use pomona_geometry::{Capsule, Cylinder};
 use pomona_ransac::{Candidates, Estimator, Linearization};
@@ -39,8 +40,8 @@ impl<'a, T: Coordinate> CapsuleEstimator<'a, T> {
     ///
     /// A minimal model ends where for a length of `max_gap` no point is within `inlier_distance` of its
     /// surface, and 128 gaps from the sample at the latest; a refit ends where its inliers leave a larger gap than
-    /// `max_gap`. No models come of an `inlier_distance` that is negative or NaN, of a
-    /// `max_gap` that is not positive and finite, and of a sample with a point beyond the last normal.
+    /// `max_gap`. There are no models for an `inlier_distance` that is negative or NaN, for a
+    /// `max_gap` that is not positive and finite, or for a sample with a point beyond the last normal.
     pub fn new(
         points: Points<'a, T>,
         normals: Points<'a, T>,
@@ -55,6 +56,8 @@ impl<'a, T: Coordinate> CapsuleEstimator<'a, T> {
             knowledge: None,
         }
     }
+
+    radius_prior!();
 
     /// The ends of `cylinder` about the parameter `middle` of its axis.
     fn ends(&self, cylinder: &Cylinder, middle: f64) -> (f64, f64) {
@@ -74,16 +77,6 @@ impl<'a, T: Coordinate> CapsuleEstimator<'a, T> {
         let above = covered[half..].iter().take_while(|c| **c).count();
         let at = |cells: usize| cells as f64 * self.max_gap;
         (middle - at(below), middle + at(above))
-    }
-
-    /// Refits use a prior on the radius; `point_sigma` is the standard deviation of the points about the surface.
-    ///
-    /// # Errors
-    ///
-    /// Unless `point_sigma` is positive and finite.
-    pub fn prior(self, prior: RadiusPrior, point_sigma: f64) -> Result<Self, PriorError> {
-        let knowledge = Some(Knowledge::new(prior, point_sigma)?);
-        Ok(Self { knowledge, ..self })
     }
 
     fn geometric(
@@ -120,9 +113,7 @@ impl<T: Coordinate> Estimator for CapsuleEstimator<'_, T> {
     const SAMPLE_SIZE: usize = 2;
     const PARAMETERS: usize = 5;
 
-    fn len(&self) -> usize {
-        self.points.len()
-    }
+    residuals_by_distance!(Capsule, signed_distance, abs);
 
     fn fit(&self, sample: &[usize], candidates: &mut Candidates<Capsule>) {
         let &[i, j] = sample else { return };
@@ -142,51 +133,16 @@ impl<T: Coordinate> Estimator for CapsuleEstimator<'_, T> {
         }
     }
 
-    fn refit(&self, inliers: &[usize], current: &Capsule) -> Option<Capsule> {
-        self.geometric(inliers, None, current, None)
-    }
-
-    fn refit_weighted(
-        &self,
-        inliers: &[usize],
-        weights: &[f64],
-        current: &Capsule,
-    ) -> Option<Capsule> {
-        self.geometric(inliers, Some(weights), current, None)
-    }
-
     fn linearize(&self, capsule: &Capsule, datum: usize, rows: &mut Linearization) {
         if let Some(cylinder) = capsule.cylinder() {
             linearize::<CylinderChart, 5, 1>(&cylinder, &self.points.get(datum), rows);
         }
     }
 
-    fn residuals(&self, capsule: &Capsule, block: Range<usize>, out: &mut [f64]) {
-        for (r, i) in out.iter_mut().zip(block) {
-            *r = capsule.signed_distance(&self.points.get(i)).abs();
-        }
-    }
-
-    fn residuals_of(&self, capsule: &Capsule, data: &[usize], out: &mut [f64]) {
-        for (r, &i) in out.iter_mut().zip(data) {
-            *r = capsule.signed_distance(&self.points.get(i)).abs();
-        }
-    }
-
-    fn same_model(&self, one: &Capsule, other: &Capsule) -> bool {
-        one == other
-    }
+    geometric_refits!(Capsule);
 }
 
 /// The condition sees the capsule with the ends of the one started from; afterwards the ends are those of the inliers.
 impl<T: Coordinate> HeldRefit for CapsuleEstimator<'_, T> {
-    fn refit_held(
-        &self,
-        inliers: &[usize],
-        weights: Option<&[f64]>,
-        start: &Capsule,
-        condition: &dyn Fn(&Capsule) -> f64,
-    ) -> Option<Capsule> {
-        self.geometric(inliers, weights, start, Some(condition))
-    }
+    held_refit!(Capsule, geometric);
 }

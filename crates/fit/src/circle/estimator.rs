@@ -3,6 +3,7 @@ use crate::circle::{CircleChart, circle_held};
 use crate::held::HeldRefit;
 use crate::points::weighted;
 use crate::prior::Knowledge;
+use crate::shared_methods::{geometric_refits, held_refit, radius_prior, residuals_by_distance};
 use crate::{Coordinate, Points, PriorError, RadiusPrior, circle_through};
 use pomona_geometry::Circle;
 use pomona_ransac::{Candidates, Estimator, Linearization};
@@ -31,15 +32,7 @@ impl<'a, T: Coordinate> CircleEstimator<'a, T> {
         }
     }
 
-    /// Refits use a prior on the radius; `point_sigma` is the standard deviation of the points about the curve.
-    ///
-    /// # Errors
-    ///
-    /// Unless `point_sigma` is positive and finite.
-    pub fn prior(self, prior: RadiusPrior, point_sigma: f64) -> Result<Self, PriorError> {
-        let knowledge = Some(Knowledge::new(prior, point_sigma)?);
-        Ok(Self { knowledge, ..self })
-    }
+    radius_prior!();
 
     fn geometric(
         &self,
@@ -58,9 +51,7 @@ impl<T: Coordinate> Estimator for CircleEstimator<'_, T> {
     const SAMPLE_SIZE: usize = 3;
     const PARAMETERS: usize = 6;
 
-    fn len(&self) -> usize {
-        self.points.len()
-    }
+    residuals_by_distance!(Circle, distance);
 
     fn fit(&self, sample: &[usize], candidates: &mut Candidates<Circle>) {
         let &[i, j, k] = sample else { return };
@@ -69,48 +60,13 @@ impl<T: Coordinate> Estimator for CircleEstimator<'_, T> {
         }
     }
 
-    fn refit(&self, inliers: &[usize], current: &Circle) -> Option<Circle> {
-        self.geometric(inliers, None, current, None)
-    }
-
-    fn refit_weighted(
-        &self,
-        inliers: &[usize],
-        weights: &[f64],
-        current: &Circle,
-    ) -> Option<Circle> {
-        self.geometric(inliers, Some(weights), current, None)
-    }
-
     fn linearize(&self, circle: &Circle, datum: usize, rows: &mut Linearization) {
         linearize::<CircleChart, 6, 2>(circle, &self.points.get(datum), rows);
     }
 
-    fn residuals(&self, circle: &Circle, block: Range<usize>, out: &mut [f64]) {
-        for (r, i) in out.iter_mut().zip(block) {
-            *r = circle.distance(&self.points.get(i));
-        }
-    }
-
-    fn residuals_of(&self, circle: &Circle, data: &[usize], out: &mut [f64]) {
-        for (r, &i) in out.iter_mut().zip(data) {
-            *r = circle.distance(&self.points.get(i));
-        }
-    }
-
-    fn same_model(&self, one: &Circle, other: &Circle) -> bool {
-        one == other
-    }
+    geometric_refits!(Circle);
 }
 
 impl<T: Coordinate> HeldRefit for CircleEstimator<'_, T> {
-    fn refit_held(
-        &self,
-        inliers: &[usize],
-        weights: Option<&[f64]>,
-        start: &Circle,
-        condition: &dyn Fn(&Circle) -> f64,
-    ) -> Option<Circle> {
-        self.geometric(inliers, weights, start, Some(condition))
-    }
+    held_refit!(Circle, geometric);
 }

@@ -3,6 +3,9 @@ use crate::cylinder::{CylinderChart, cylinder_held, pipe};
 use crate::held::HeldRefit;
 use crate::points::weighted;
 use crate::prior::Knowledge;
+use crate::shared_methods::{
+    geometric_refits, held_refit, radius_prior, residuals_by_distance, scores_by_kernel,
+};
 use crate::{Coordinate, Points, PriorError, RadiusPrior, cylinder_through, simd};
 use pomona_geometry::Cylinder;
 use pomona_ransac::{Candidates, Estimator, Linearization};
@@ -35,15 +38,7 @@ impl<'a, T: Coordinate> CylinderEstimator<'a, T> {
         }
     }
 
-    /// Refits use a prior on the radius; `point_sigma` is the standard deviation of the points about the surface.
-    ///
-    /// # Errors
-    ///
-    /// Unless `point_sigma` is positive and finite.
-    pub fn prior(self, prior: RadiusPrior, point_sigma: f64) -> Result<Self, PriorError> {
-        let knowledge = Some(Knowledge::new(prior, point_sigma)?);
-        Ok(Self { knowledge, ..self })
-    }
+    radius_prior!();
 
     fn geometric(
         &self,
@@ -62,9 +57,7 @@ impl<T: Coordinate> Estimator for CylinderEstimator<'_, T> {
     const SAMPLE_SIZE: usize = 2;
     const PARAMETERS: usize = 5;
 
-    fn len(&self) -> usize {
-        self.points.len()
-    }
+    residuals_by_distance!(Cylinder, signed_distance, abs);
 
     fn fit(&self, sample: &[usize], candidates: &mut Candidates<Cylinder>) {
         let &[i, j] = sample else { return };
@@ -78,71 +71,15 @@ impl<T: Coordinate> Estimator for CylinderEstimator<'_, T> {
         }
     }
 
-    fn refit(&self, inliers: &[usize], current: &Cylinder) -> Option<Cylinder> {
-        self.geometric(inliers, None, current, None)
-    }
-
-    fn refit_weighted(
-        &self,
-        inliers: &[usize],
-        weights: &[f64],
-        current: &Cylinder,
-    ) -> Option<Cylinder> {
-        self.geometric(inliers, Some(weights), current, None)
-    }
-
     fn linearize(&self, cylinder: &Cylinder, datum: usize, rows: &mut Linearization) {
         linearize::<CylinderChart, 5, 1>(cylinder, &self.points.get(datum), rows);
     }
 
-    fn residuals(&self, cylinder: &Cylinder, block: Range<usize>, out: &mut [f64]) {
-        for (r, i) in out.iter_mut().zip(block) {
-            *r = cylinder.signed_distance(&self.points.get(i)).abs();
-        }
-    }
+    geometric_refits!(Cylinder);
 
-    fn residuals_of(&self, cylinder: &Cylinder, data: &[usize], out: &mut [f64]) {
-        for (r, &i) in out.iter_mut().zip(data) {
-            *r = cylinder.signed_distance(&self.points.get(i)).abs();
-        }
-    }
-
-    fn same_model(&self, one: &Cylinder, other: &Cylinder) -> bool {
-        one == other
-    }
-
-    fn count_within(&self, cylinder: &Cylinder, block: Range<usize>, threshold: f64) -> usize {
-        simd::count(self.points.block(block), pipe::<T>(cylinder, threshold))
-    }
-
-    fn truncated_gain(&self, cylinder: &Cylinder, block: Range<usize>, threshold: f64) -> f64 {
-        if threshold == 0.0 {
-            return self.count_within(cylinder, block, threshold) as f64;
-        }
-        simd::gain(self.points.block(block), pipe::<T>(cylinder, threshold))
-    }
-
-    fn select_within(
-        &self,
-        cylinder: &Cylinder,
-        block: Range<usize>,
-        threshold: f64,
-        out: &mut Vec<usize>,
-    ) {
-        let first = block.start;
-        let kernel = pipe::<T>(cylinder, threshold);
-        simd::select(self.points.block(block), first, kernel, out);
-    }
+    scores_by_kernel!(Cylinder, pipe::<T>);
 }
 
 impl<T: Coordinate> HeldRefit for CylinderEstimator<'_, T> {
-    fn refit_held(
-        &self,
-        inliers: &[usize],
-        weights: Option<&[f64]>,
-        start: &Cylinder,
-        condition: &dyn Fn(&Cylinder) -> f64,
-    ) -> Option<Cylinder> {
-        self.geometric(inliers, weights, start, Some(condition))
-    }
+    held_refit!(Cylinder, geometric);
 }

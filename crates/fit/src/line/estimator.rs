@@ -4,6 +4,7 @@ use crate::levenberg::Objective;
 use crate::line::{LineChart, Tube};
 use crate::moments::Moments;
 use crate::points::weighted;
+use crate::shared_methods::{held_refit, residuals_by_distance, scores_by_kernel};
 use crate::{Coordinate, Points, line_least_squares, simd};
 use pomona_geometry::Line;
 use pomona_ransac::{Candidates, Estimator, Linearization};
@@ -31,9 +32,7 @@ impl<T: Coordinate> Estimator for LineEstimator<'_, T> {
     const SAMPLE_SIZE: usize = 2;
     const PARAMETERS: usize = 4;
 
-    fn len(&self) -> usize {
-        self.points.len()
-    }
+    residuals_by_distance!(Line, distance);
 
     fn fit(&self, sample: &[usize], candidates: &mut Candidates<Line>) {
         let &[i, j] = sample else { return };
@@ -54,44 +53,7 @@ impl<T: Coordinate> Estimator for LineEstimator<'_, T> {
         linearize::<LineChart, 4, 2>(line, &self.points.get(datum), rows);
     }
 
-    fn residuals(&self, line: &Line, block: Range<usize>, out: &mut [f64]) {
-        for (r, i) in out.iter_mut().zip(block) {
-            *r = line.distance(&self.points.get(i));
-        }
-    }
-
-    fn residuals_of(&self, line: &Line, data: &[usize], out: &mut [f64]) {
-        for (r, &i) in out.iter_mut().zip(data) {
-            *r = line.distance(&self.points.get(i));
-        }
-    }
-
-    fn same_model(&self, one: &Line, other: &Line) -> bool {
-        one == other
-    }
-
-    fn count_within(&self, line: &Line, block: Range<usize>, threshold: f64) -> usize {
-        simd::count(self.points.block(block), Tube::<T>::new(line, threshold))
-    }
-
-    fn truncated_gain(&self, line: &Line, block: Range<usize>, threshold: f64) -> f64 {
-        if threshold == 0.0 {
-            return self.count_within(line, block, threshold) as f64;
-        }
-        simd::gain(self.points.block(block), Tube::<T>::new(line, threshold))
-    }
-
-    fn select_within(
-        &self,
-        line: &Line,
-        block: Range<usize>,
-        threshold: f64,
-        out: &mut Vec<usize>,
-    ) {
-        let first = block.start;
-        let kernel = Tube::<T>::new(line, threshold);
-        simd::select(self.points.block(block), first, kernel, out);
-    }
+    scores_by_kernel!(Line, Tube::<T>::new);
 }
 
 impl<T: Coordinate> LineEstimator<'_, T> {
@@ -120,13 +82,5 @@ impl<T: Coordinate> LineEstimator<'_, T> {
 }
 
 impl<T: Coordinate> HeldRefit for LineEstimator<'_, T> {
-    fn refit_held(
-        &self,
-        inliers: &[usize],
-        weights: Option<&[f64]>,
-        start: &Line,
-        condition: &dyn Fn(&Line) -> f64,
-    ) -> Option<Line> {
-        self.iterated(inliers, weights, start, Some(condition))
-    }
+    held_refit!(Line, iterated);
 }

@@ -3,6 +3,7 @@ use crate::held::HeldRefit;
 use crate::levenberg::Objective;
 use crate::plane::{PlaneChart, Slab};
 use crate::points::{centroid_and_extent, weighted};
+use crate::shared_methods::{held_refit, residuals_by_distance, scores_by_kernel};
 use crate::{Coordinate, Points, plane_least_squares, simd};
 use pomona_geometry::Plane;
 use pomona_ransac::{Candidates, Estimator, Linearization};
@@ -29,9 +30,7 @@ impl<T: Coordinate> Estimator for PlaneEstimator<'_, T> {
     const SAMPLE_SIZE: usize = 3;
     const PARAMETERS: usize = 3;
 
-    fn len(&self) -> usize {
-        self.points.len()
-    }
+    residuals_by_distance!(Plane, signed_distance, abs);
 
     fn fit(&self, sample: &[usize], candidates: &mut Candidates<Plane>) {
         let &[i, j, k] = sample else { return };
@@ -53,44 +52,7 @@ impl<T: Coordinate> Estimator for PlaneEstimator<'_, T> {
         linearize::<PlaneChart, 3, 1>(plane, &self.points.get(datum), rows);
     }
 
-    fn residuals(&self, plane: &Plane, block: Range<usize>, out: &mut [f64]) {
-        for (r, i) in out.iter_mut().zip(block) {
-            *r = plane.signed_distance(&self.points.get(i)).abs();
-        }
-    }
-
-    fn residuals_of(&self, plane: &Plane, data: &[usize], out: &mut [f64]) {
-        for (r, &i) in out.iter_mut().zip(data) {
-            *r = plane.signed_distance(&self.points.get(i)).abs();
-        }
-    }
-
-    fn same_model(&self, one: &Plane, other: &Plane) -> bool {
-        one == other
-    }
-
-    fn count_within(&self, plane: &Plane, block: Range<usize>, threshold: f64) -> usize {
-        simd::count(self.points.block(block), Slab::<T>::new(plane, threshold))
-    }
-
-    fn truncated_gain(&self, plane: &Plane, block: Range<usize>, threshold: f64) -> f64 {
-        if threshold == 0.0 {
-            return self.count_within(plane, block, threshold) as f64;
-        }
-        simd::gain(self.points.block(block), Slab::<T>::new(plane, threshold))
-    }
-
-    fn select_within(
-        &self,
-        plane: &Plane,
-        block: Range<usize>,
-        threshold: f64,
-        out: &mut Vec<usize>,
-    ) {
-        let first = block.start;
-        let kernel = Slab::<T>::new(plane, threshold);
-        simd::select(self.points.block(block), first, kernel, out);
-    }
+    scores_by_kernel!(Plane, Slab::<T>::new);
 }
 
 impl<T: Coordinate> PlaneEstimator<'_, T> {
@@ -115,13 +77,5 @@ impl<T: Coordinate> PlaneEstimator<'_, T> {
 }
 
 impl<T: Coordinate> HeldRefit for PlaneEstimator<'_, T> {
-    fn refit_held(
-        &self,
-        inliers: &[usize],
-        weights: Option<&[f64]>,
-        start: &Plane,
-        condition: &dyn Fn(&Plane) -> f64,
-    ) -> Option<Plane> {
-        self.iterated(inliers, weights, start, Some(condition))
-    }
+    held_refit!(Plane, iterated);
 }

@@ -2,6 +2,7 @@ use crate::chart::linearize;
 use crate::held::HeldRefit;
 use crate::points::weighted;
 use crate::prior::Knowledge;
+use crate::shared_methods::{held_refit, residuals_by_distance, scores_by_kernel};
 use crate::sphere::{FourPoints, SphereChart, SphereSample, shell, sphere_held};
 use crate::{Coordinate, Points, PriorError, RadiusPrior, simd, sphere_least_squares};
 use pomona_geometry::Sphere;
@@ -88,9 +89,7 @@ impl<T: Coordinate, S: SphereSample<T>> Estimator for SphereEstimator<'_, T, S> 
     const MAX_MODELS: usize = S::MODELS;
     const PARAMETERS: usize = 4;
 
-    fn len(&self) -> usize {
-        self.points.len()
-    }
+    residuals_by_distance!(Sphere, signed_distance, abs);
 
     fn fit(&self, sample: &[usize], candidates: &mut Candidates<Sphere>) {
         self.sample.fit(&self.points, sample, candidates);
@@ -119,54 +118,9 @@ impl<T: Coordinate, S: SphereSample<T>> Estimator for SphereEstimator<'_, T, S> 
         linearize::<SphereChart, 4, 1>(sphere, &self.points.get(datum), rows);
     }
 
-    fn residuals(&self, sphere: &Sphere, block: Range<usize>, out: &mut [f64]) {
-        for (r, i) in out.iter_mut().zip(block) {
-            *r = sphere.signed_distance(&self.points.get(i)).abs();
-        }
-    }
-
-    fn residuals_of(&self, sphere: &Sphere, data: &[usize], out: &mut [f64]) {
-        for (r, &i) in out.iter_mut().zip(data) {
-            *r = sphere.signed_distance(&self.points.get(i)).abs();
-        }
-    }
-
-    fn same_model(&self, one: &Sphere, other: &Sphere) -> bool {
-        one == other
-    }
-
-    fn count_within(&self, sphere: &Sphere, block: Range<usize>, threshold: f64) -> usize {
-        simd::count(self.points.block(block), shell::<T>(sphere, threshold))
-    }
-
-    fn truncated_gain(&self, sphere: &Sphere, block: Range<usize>, threshold: f64) -> f64 {
-        if threshold == 0.0 {
-            return self.count_within(sphere, block, threshold) as f64;
-        }
-        simd::gain(self.points.block(block), shell::<T>(sphere, threshold))
-    }
-
-    fn select_within(
-        &self,
-        sphere: &Sphere,
-        block: Range<usize>,
-        threshold: f64,
-        out: &mut Vec<usize>,
-    ) {
-        let first = block.start;
-        let kernel = shell::<T>(sphere, threshold);
-        simd::select(self.points.block(block), first, kernel, out);
-    }
+    scores_by_kernel!(Sphere, shell::<T>);
 }
 
 impl<T: Coordinate, S: SphereSample<T>> HeldRefit for SphereEstimator<'_, T, S> {
-    fn refit_held(
-        &self,
-        inliers: &[usize],
-        weights: Option<&[f64]>,
-        start: &Sphere,
-        condition: &dyn Fn(&Sphere) -> f64,
-    ) -> Option<Sphere> {
-        self.geometric(inliers, weights, start, Some(condition))
-    }
+    held_refit!(Sphere, geometric);
 }

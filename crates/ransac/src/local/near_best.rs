@@ -1,7 +1,7 @@
 use super::{LocalOptimization, Refiner, Scored};
 use crate::{Constraints, Estimator, Scorer};
 
-/// Betters not only each new best model, as `L` does, but at the end also the best hypotheses that
+/// Improves not only each new best model, as `L` does, but at the end also the best hypotheses that
 /// were near it, and takes the best of what comes out.
 ///
 /// A hypothesis of noisy data is a poor copy of the model behind it, and chance decides
@@ -12,7 +12,7 @@ use crate::{Constraints, Estimator, Scorer};
 /// The search keeps the highest scores, of hypotheses that differ: of two whose inliers
 /// share four fifths of their union, the better is kept. Each is then refitted to convergence under the
 /// constraints by `L`'s [`finish`](LocalOptimization::finish). With a lossless bound the score is never below that of `L` alone.
-/// Models can be given up only below the share of the best score that is still near, and so later.
+/// Models can be abandoned only below the share of the best score that is still near, and so later.
 ///
 /// ```
 /// use pomona_ransac::{LeastSquares, Msac, NearBest, Ransac};

@@ -15,7 +15,7 @@ use anyhow::{Context, Result, bail, ensure};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
-use xtask::gate::{Finding, Golden, Limits, SuiteLimits, Verdict, failures, judge};
+use xtask_gate::{Finding, Golden, Limits, SuiteLimits, Verdict, failures, judge};
 
 const LIMITS: &str = "xtask/regress.toml";
 const GOLDEN: &str = "fixtures/golden";

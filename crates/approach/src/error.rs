@@ -1,48 +1,6 @@
 use crate::Clearance;
 use thiserror::Error;
 
-/// A setting that makes no sense, or a file that is not one of settings.
-#[derive(Debug, Error)]
-#[non_exhaustive]
-pub enum ConfigError {
-    /// The file could not be read.
-    #[error("robot settings '{path}': {source}; give the path of a TOML file")]
-    Read {
-        /// The file.
-        path: String,
-        /// Why.
-        source: std::io::Error,
-    },
-    /// It is not TOML, or has a name or type that settings do not have.
-    #[error("robot settings '{path}': {source}")]
-    Parse {
-        /// The file.
-        path: String,
-        /// Where and why.
-        source: Box<toml::de::Error>,
-    },
-    /// It says where the flange is as it was said before.
-    #[error(
-        "robot settings '{path}': `wrist_from_tool_*` of [gripper] are no longer known; write {instead}"
-    )]
-    Outdated {
-        /// The file.
-        path: String,
-        /// What to write.
-        instead: String,
-    },
-    /// A value outside of what makes sense.
-    #[error("robot setting {name} = {value}: it must be {rule}")]
-    Value {
-        /// Its name.
-        name: &'static str,
-        /// Its value.
-        value: f64,
-        /// What is asked of it.
-        rule: &'static str,
-    },
-}
-
 /// Which limit of the arm a place lies beyond.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ReachLimit {

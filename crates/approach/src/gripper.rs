@@ -1,112 +1,44 @@
 use crate::body::Body;
-use crate::config::require;
-use crate::error::ConfigError;
-use nalgebra::{Isometry3, Point3, Quaternion, Vector3};
+use nalgebra::{Isometry3, Point3, Vector3};
+use pomona_settings::settings;
 use pomona_transforms::{Direction, ToolModel, Transform};
-use serde::{Deserialize, Serialize};
 
-/// A gripper with two parallel fingers, a palm and a wrist; lengths in metres.
-///
-/// In the tool frame (origin between the fingers, +x the approach, y the opening) the fingers' axes
-/// run along x at y = ±(`jaw_width_m` + `finger_thickness_m`) / 2, the palm joins them behind the
-/// fruit, the wrist runs back from the palm. All four are capsules.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct Gripper {
-    /// Room between the open fingers. Default 0.100. Wider: larger apples, and more of what stands
-    /// about them is in the way.
-    pub jaw_width_m: f64,
-    /// Diameter of a finger. Default 0.012.
-    pub finger_thickness_m: f64,
-    /// How far the fingertips go beyond the apple's centre. Default 0.015. Farther: a surer hold,
-    /// nearer to the branch.
-    pub finger_reach_m: f64,
-    /// From the apple's centre back to the palm's surface. Default 0.060.
-    pub palm_depth_m: f64,
-    /// Diameter of the palm's bar. Default 0.030.
-    pub palm_thickness_m: f64,
-    /// Diameter of the wrist behind the palm. Default 0.070.
-    pub wrist_diameter_m: f64,
-    /// Length of the wrist behind the palm's surface that is checked. Default 0.150. Longer: more of
-    /// the arm is known to be free.
-    pub wrist_length_m: f64,
-    /// Room for error between the apple's surface and each finger and the palm. Default 0.005. Less:
-    /// larger apples, and fingers that knock against them.
-    pub grip_margin_m: f64,
-    /// The axis of the tool's own frame that leads in the approach. Default 1 0 0. Most programs
-    /// have 0 0 1. The fingers open along its y, for an axis along y along its x.
-    pub tool_axis: [f64; 3],
-    /// Place of the flange, which robots' programs move, in the tool's own frame, whose origin is
-    /// where the apple's centre comes to rest. Default 0 0 0. A flange 0.18 m behind, for an axis of
-    /// 0 0 1: 0 0 -0.18.
-    pub tcp_from_flange_translation_m: [f64; 3],
-    /// Orientation of the flange in the tool's own frame, x y z w. Default 0 0 0 1.
-    pub tcp_from_flange_quaternion_xyzw: [f64; 4],
-}
-
-impl Default for Gripper {
-    fn default() -> Self {
-        Self {
-            jaw_width_m: 0.100,
-            finger_thickness_m: 0.012,
-            finger_reach_m: 0.015,
-            palm_depth_m: 0.060,
-            palm_thickness_m: 0.030,
-            wrist_diameter_m: 0.070,
-            wrist_length_m: 0.150,
-            grip_margin_m: 0.005,
-            tool_axis: [1.0, 0.0, 0.0],
-            tcp_from_flange_translation_m: [0.0; 3],
-            tcp_from_flange_quaternion_xyzw: [0.0, 0.0, 0.0, 1.0],
-        }
+settings! {
+    /// A gripper with two parallel fingers, a palm and a wrist; lengths in metres.
+    ///
+    /// In the tool frame (origin between the fingers, +x the approach, y the opening) the fingers' axes
+    /// run along x at y = ±(`jaw_width_m` + `finger_thickness_m`) / 2, the palm joins them behind the
+    /// fruit, the wrist runs back from the palm. All four are capsules.
+    pub struct Gripper {
+        /// Room between the open fingers. Wider: larger apples, and more of what stands about them is in the way.
+        jaw_width_m: f64 = 0.100, "metres", above(0.0).at_most(1.0);
+        /// Diameter of a finger.
+        finger_thickness_m: f64 = 0.012, "metres", above(0.0).at_most(1.0);
+        /// How far the fingertips go beyond the apple's centre. Farther: a surer hold, nearer to the branch.
+        finger_reach_m: f64 = 0.015, "metres", within(0.0, 1.0);
+        /// From the apple's centre back to the palm's surface.
+        palm_depth_m: f64 = 0.060, "metres", above(0.0).at_most(1.0);
+        /// Diameter of the palm's bar.
+        palm_thickness_m: f64 = 0.030, "metres", above(0.0).at_most(1.0);
+        /// Diameter of the wrist behind the palm.
+        wrist_diameter_m: f64 = 0.070, "metres", above(0.0).at_most(1.0);
+        /// Length of the wrist behind the palm's surface that is checked. Longer: more of the arm is known to be free.
+        wrist_length_m: f64 = 0.150, "metres", within(0.0, 1.0);
+        /// Room for error between the apple's surface and each finger and the palm. Less: larger apples, and fingers
+        /// that knock against them.
+        grip_margin_m: f64 = 0.005, "metres", within(0.0, 1.0);
+        /// The axis of the tool's own frame that leads in the approach. Most programs have 0 0 1. The fingers open
+        /// along its y, for an axis along y along its x.
+        tool_axis: [f64; 3] = [1.0, 0.0, 0.0], "unit vector", unit();
+        /// Place of the flange, which robots' programs move, in the tool's own frame, whose origin is where the apple's
+        /// centre comes to rest. A flange 0.18 m behind, for an axis of 0 0 1: 0 0 -0.18.
+        tcp_from_flange_translation_m: [f64; 3] = [0.0; 3], "metres", norm_at_most(2.0);
+        /// Orientation of the flange in the tool's own frame, x y z w.
+        tcp_from_flange_quaternion_xyzw: [f64; 4] = [0.0, 0.0, 0.0, 1.0], "unit quaternion", unit();
     }
 }
 
 impl Gripper {
-    pub(crate) fn validate(&self) -> Result<(), ConfigError> {
-        for (name, value) in [
-            ("gripper.jaw_width_m", self.jaw_width_m),
-            ("gripper.finger_thickness_m", self.finger_thickness_m),
-            ("gripper.palm_depth_m", self.palm_depth_m),
-            ("gripper.palm_thickness_m", self.palm_thickness_m),
-            ("gripper.wrist_diameter_m", self.wrist_diameter_m),
-        ] {
-            let rule = "over 0 and at most 1, in metres";
-            require(value > 0.0 && value <= 1.0, name, value, rule)?;
-        }
-        let rule = "from 0 to 1, in metres";
-        for (name, value) in [
-            ("gripper.finger_reach_m", self.finger_reach_m),
-            ("gripper.wrist_length_m", self.wrist_length_m),
-            ("gripper.grip_margin_m", self.grip_margin_m),
-        ] {
-            require((0.0..=1.0).contains(&value), name, value, rule)?;
-        }
-        let [x, y, z] = self.tool_axis;
-        let length = x.hypot(y).hypot(z);
-        require(
-            (length - 1.0).abs() <= 1e-3,
-            "gripper.tool_axis",
-            length,
-            "of length 1, for example [0.0, 0.0, 1.0]",
-        )?;
-        let [x, y, z] = self.tcp_from_flange_translation_m;
-        require(
-            x.hypot(y).hypot(z) <= 2.0,
-            "gripper.tcp_from_flange_translation_m",
-            x.hypot(y).hypot(z),
-            "at most 2 metres long",
-        )?;
-        let [x, y, z, w] = self.tcp_from_flange_quaternion_xyzw;
-        let norm = Quaternion::new(w, x, y, z).norm();
-        require(
-            (norm - 1.0).abs() <= 1e-3,
-            "gripper.tcp_from_flange_quaternion_xyzw",
-            norm,
-            "of norm 1; copy all digits, in the order x y z w",
-        )
-    }
-
     /// The tool as `pomona-transforms` has it; the default one where a setting is such that
     /// [`ApproachConfig::validate`](crate::ApproachConfig::validate) refuses it.
     pub fn tool_model(&self) -> ToolModel {

@@ -81,7 +81,6 @@ mod config;
 mod error;
 mod gripper;
 mod order;
-mod outdated;
 mod outline;
 mod path;
 mod planner;
@@ -93,16 +92,14 @@ mod sweep;
 mod target;
 
 pub use clearance::{Clearance, Obstacle, Stage};
-pub use config::{
-    ApproachConfig, COMMENTED_DEFAULTS, ClearanceConfig, MotionConfig, ReachConfig, Roll,
-    SearchConfig,
-};
-pub use error::{ConfigError, ReachLimit, Refusal};
+pub use config::{ApproachConfig, ClearanceConfig, MotionConfig, ReachConfig, Roll, SearchConfig};
+pub use error::{ReachLimit, Refusal};
 pub use gripper::Gripper;
 pub use order::{Order, Rank, Reason, pick_order};
 pub use path::{Path, Piece, Sample};
 pub use planner::{Approach, Planner};
 pub use point_tree::PointTree;
+pub use pomona_settings::ConfigError;
 pub use pose::tool_rotation;
 pub use quintic::{Quintic, State};
 pub use scene::Scene;

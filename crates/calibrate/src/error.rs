@@ -1,4 +1,3 @@
-use std::path::PathBuf;
 use thiserror::Error;
 
 /// Why samples give no calibration.
@@ -120,32 +119,4 @@ pub enum CalibrateError {
         "the samples do not determine the answer; take more of them, with rotations of 30 degrees and more about axes that differ"
     )]
     Undetermined,
-}
-
-/// Why a file of samples could not be read.
-///
-/// Every message names the file, the place in it, and what to do about it.
-#[derive(Debug, Error)]
-#[non_exhaustive]
-pub enum SampleFileError {
-    /// The operating system refused to read the file.
-    #[error("{}: cannot be read: {source}; check the path", .path.display())]
-    Read {
-        /// The file.
-        path: PathBuf,
-        /// What the system said.
-        source: std::io::Error,
-    },
-    /// The content is not of the form documented at [`SampleSet`](crate::SampleSet).
-    #[error("{}: {place}: {problem}; {remedy}", .path.display())]
-    Form {
-        /// The file.
-        path: PathBuf,
-        /// Line, or sample and field.
-        place: String,
-        /// What is wrong there.
-        problem: String,
-        /// What to do about it.
-        remedy: String,
-    },
 }

@@ -1,144 +1,29 @@
 //! Files of samples.
 
+mod checks;
 mod csv_form;
 mod json_form;
 
-use crate::{PointSample, PoseSample, SampleFileError};
+use crate::SampleSet;
+use pomona_files::FileError;
 use std::path::Path;
-
-/// Name and version of the form of a JSON file of samples.
-pub const SAMPLES_SCHEMA: &str = "pomona.calibration-samples/1";
-
-/// The samples of a file, and the names of the frames where it gives them.
-///
-/// JSON, with the ids of the frames optional:
-///
-/// ```json
-/// { "schema": "pomona.calibration-samples/1",
-///   "robot_frame": "base_link", "camera_frame": "camera_color_optical_frame",
-///   "flange_frame": "tool0", "target_frame": "marker_7",
-///   "poses": [
-///     { "id": "stop-01",
-///       "robot_from_flange":  { "translation_m": [0.6, 0.1, 0.5], "quaternion_xyzw": [0, 0.7071068, 0, 0.7071068] },
-///       "camera_from_target": { "translation_m": [0.0, 0.1, 0.8], "quaternion_xyzw": [1, 0, 0, 0] } } ] }
-/// ```
-///
-/// or, in place of `poses`, `"points": [{ "id": "p1", "camera_m": [x, y, z], "robot_m": [x, y, z] }]`. A pose may give
-/// `"matrix"`, four rows of four, in place of translation and quaternion.
-///
-/// CSV, told by its first line; columns may stand in any order:
-///
-/// ```text
-/// id,camera_x_m,camera_y_m,camera_z_m,robot_x_m,robot_y_m,robot_z_m
-/// ```
-///
-/// for points, and for poses `id` with, for each of `robot_from_flange` and `camera_from_target`, the columns
-/// `…_x_m`, `…_y_m`, `…_z_m`, `…_qx`, `…_qy`, `…_qz`, `…_qw`.
-///
-/// Metres; quaternions in the order x y z w; transforms destination first.
-#[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
-pub struct SampleSet {
-    /// The samples.
-    pub samples: Samples,
-    /// Ids of the frames.
-    pub frames: FrameIds,
-}
-
-/// Samples of one kind.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Samples {
-    /// Places.
-    Points(Vec<PointSample>),
-    /// Poses.
-    Poses(Vec<PoseSample>),
-}
-
-/// Ids of the frames, as the robot's programs know them.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-#[non_exhaustive]
-pub struct FrameIds {
-    /// The robot's base.
-    pub robot: Option<String>,
-    /// The camera.
-    pub camera: Option<String>,
-    /// The flange.
-    pub flange: Option<String>,
-    /// The target.
-    pub target: Option<String>,
-}
 
 impl SampleSet {
     /// Reads a file, as JSON where it begins with a brace and as CSV otherwise.
     ///
     /// # Errors
     ///
-    /// [`SampleFileError::Read`]; [`SampleFileError::Form`] for what is not of the form above,
-    /// with the line, or the sample and the field.
-    pub fn read(path: impl AsRef<Path>) -> Result<Self, SampleFileError> {
+    /// [`FileError::Read`]; [`FileError::Malformed`] for what is not of the form above, with the line, or the sample and
+    /// the field.
+    pub fn read(path: impl AsRef<Path>) -> Result<Self, FileError> {
         let path = path.as_ref();
-        let bytes = std::fs::read(path).map_err(|source| SampleFileError::Read {
-            path: path.to_owned(),
-            source,
-        })?;
-        let json = bytes
-            .iter()
-            .find(|b| !b.is_ascii_whitespace())
-            .is_some_and(|b| *b == b'{');
-        let parsed = if json {
+        let bytes = pomona_files::read(path)?;
+        let first = bytes.iter().find(|b| !b.is_ascii_whitespace());
+        let parsed = if first == Some(&b'{') {
             json_form::parse(&bytes)
         } else {
             csv_form::parse(&bytes)
         };
-        parsed.map_err(|fault| SampleFileError::Form {
-            path: path.to_owned(),
-            place: fault.place,
-            problem: fault.problem,
-            remedy: fault.remedy,
-        })
+        parsed.map_err(|fault| fault.at(path))
     }
-}
-
-/// What is wrong in a file whose name is known elsewhere.
-#[derive(Debug)]
-struct Fault {
-    place: String,
-    problem: String,
-    remedy: String,
-}
-
-impl Fault {
-    fn new(
-        place: impl Into<String>,
-        problem: impl std::fmt::Display,
-        remedy: impl Into<String>,
-    ) -> Self {
-        Self {
-            place: place.into(),
-            problem: format!("{problem}"),
-            remedy: remedy.into(),
-        }
-    }
-}
-
-/// Refuses ids that are empty or stand twice; `place` says where each stands.
-fn check_ids(ids: &[(String, &str)]) -> Result<(), Fault> {
-    let mut seen = std::collections::HashMap::new();
-    for (place, id) in ids {
-        if id.trim().is_empty() {
-            return Err(Fault::new(
-                place,
-                "the id is empty",
-                "give each sample an id of its own",
-            ));
-        }
-        if let Some(first) = seen.insert(*id, place) {
-            return Err(Fault::new(
-                place,
-                format!("the id `{id}` stands at {first} already"),
-                "give each sample an id of its own",
-            ));
-        }
-    }
-    Ok(())
 }

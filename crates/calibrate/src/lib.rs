@@ -59,16 +59,21 @@ mod poses;
 mod quality;
 mod record;
 mod robust;
+mod sample_set;
 mod samples;
 
-pub use error::{CalibrateError, SampleFileError};
-pub use file::{FrameIds, SAMPLES_SCHEMA, SampleSet, Samples};
+pub use error::CalibrateError;
 pub use options::Options;
 pub use points::{PointCalibration, calibrate_points};
+pub use pomona_files::FileError;
 pub use poses::{
     MotionSpread, PoseCalibration, PoseSolver, calibrate_eye_in_hand, calibrate_eye_to_hand,
     calibrate_robot_world, solve_without_robustness,
 };
 pub use quality::{LeaveOneOut, LeftOut, Quality, Rejection, RejectionCause, SampleQuality};
-pub use record::{CameraPlace, Kind, Outcome, RECORD_SCHEMA, Record, TransformRecord, calibrate};
+pub use record::{
+    Calibration, CalibrationKind, CalibrationRecord, CameraTransform, RECORD_SCHEMA,
+    TransformRecord, calibrate,
+};
+pub use sample_set::{FrameIds, SAMPLES_SCHEMA, SampleSet, Samples};
 pub use samples::{PointSample, PoseSample};

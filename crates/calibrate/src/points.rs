@@ -2,36 +2,21 @@
 
 mod diagnosis;
 mod estimator;
+mod refine;
+mod search;
 mod similarity;
 
-use crate::quality::{
-    LeaveOneOut, LeftOut, Quality, SampleQuality, fruit, rejection, shift_at, spread,
-};
-use crate::robust::{StudentT, median};
+use crate::quality::{LeaveOneOut, Quality, SampleQuality, fruit, rejection, spread};
 use crate::samples::{check_point_lengths, check_points};
 use crate::{CalibrateError, Options, PointSample};
 use estimator::PointPairs;
-use nalgebra::{Matrix3, Matrix3x6, Matrix6};
-use pomona_ransac::{FixedCount, LeastSquares, Msac, Ransac};
-use pomona_transforms::{CameraFrame, Position, RobotFrame, Transform, UncertainTransform, twist};
+use pomona_transforms::{CameraFrame, Position, RobotFrame, Transform, UncertainTransform};
 use rand_core::Rng;
-use similarity::Similarity;
-
-/// Three points determine the unknowns; a fourth tells whether one of them is wrong.
-const LEAST_POINTS: usize = 4;
+use refine::{Fit, left_out, refine};
+use search::{LEAST_POINTS, needed, search};
 
 /// Fewer samples than this are no safeguard against a wrong one.
 const SAFE_POINTS: usize = 6;
-
-/// The least noise that is believed, m.
-const FLOOR_M: f64 = 1e-6;
-
-/// Six unknowns are the price of two samples.
-const USED: f64 = 2.0;
-
-const MAX_ROUNDS: usize = 50;
-
-type Loss = StudentT<3>;
 
 /// Where a camera is that stands still, from places that it saw and the robot touched.
 #[derive(Clone, Debug, PartialEq)]
@@ -100,113 +85,6 @@ pub fn calibrate_points<R: Rng + ?Sized>(
         scale: scale.value,
         quality,
     })
-}
-
-/// How many samples must agree.
-fn needed(samples: usize) -> usize {
-    LEAST_POINTS.max(samples / 2 + 1)
-}
-
-fn search<R: Rng + ?Sized>(
-    pairs: &PointPairs,
-    tolerance_m: f64,
-    options: &Options,
-    rng: &mut R,
-) -> Option<(Similarity, Vec<usize>)> {
-    let engine = Ransac::new(Msac::within(tolerance_m))
-        .local_optimization(LeastSquares::default())
-        .stopping(FixedCount::new(u64::from(options.hypotheses)).max_draws(20_000));
-    let report = engine.run(pairs, rng).ok()?;
-    Some((report.model, report.inliers))
-}
-
-struct Fit {
-    model: Similarity,
-    /// Standard deviation of one component.
-    sigma_m: f64,
-    /// 0 for those that are rejected.
-    weights: Vec<f64>,
-    covariance: Matrix6<f64>,
-}
-
-impl Fit {
-    fn kept(&self) -> impl Iterator<Item = usize> + '_ {
-        (0..self.weights.len()).filter(|&i| self.weights[i] > 0.0)
-    }
-}
-
-/// Refines with the weights of a Student t, and decides anew which samples belong to the model.
-fn refine(pairs: &PointPairs, inliers: &[usize], start: &Similarity) -> Option<Fit> {
-    const MEDIAN_OF_3: f64 = 1.538_172;
-    let n = pairs.camera.len();
-    let residuals =
-        |model: &Similarity| -> Vec<f64> { (0..n).map(|i| pairs.residual(model, i)).collect() };
-    let mut model = *start;
-    let mut kept: Vec<usize> = inliers.to_vec();
-    let of_inliers = residuals(&model);
-    let middle = median(kept.iter().map(|&i| of_inliers[i]).collect());
-    let mut sigma_m = (middle / MEDIAN_OF_3).max(FLOOR_M);
-    for _ in 0..MAX_ROUNDS {
-        let r = residuals(&model);
-        let weights: Vec<f64> = kept
-            .iter()
-            .map(|&i| Loss::weight((r[i] / sigma_m).powi(2)))
-            .collect();
-        let next = pairs.fit_to(&kept, Some(&weights))?;
-        let r = residuals(&next);
-        let squares: f64 = kept
-            .iter()
-            .zip(&weights)
-            .map(|(&i, w)| w * r[i] * r[i])
-            .sum();
-        let variance = Loss::variance(squares, 3.0, kept.len() as f64, USED);
-        let next_sigma = variance.sqrt().max(FLOOR_M);
-        let gate = Loss::gate().sqrt() * next_sigma;
-        let gated: Vec<usize> = (0..n).filter(|&i| r[i] <= gate).collect();
-        let gated = if gated.len() >= LEAST_POINTS {
-            gated
-        } else {
-            kept.clone()
-        };
-        let settled = gated == kept && (next_sigma / sigma_m).ln().abs() < 1e-9;
-        (model, sigma_m, kept) = (next, next_sigma, gated);
-        if settled {
-            break;
-        }
-    }
-    // Once more with the samples that were kept last, so that the report belongs to the model.
-    let r = residuals(&model);
-    let last: Vec<f64> = kept
-        .iter()
-        .map(|&i| Loss::weight((r[i] / sigma_m).powi(2)))
-        .collect();
-    let model = pairs.fit_to(&kept, Some(&last))?;
-    let r = residuals(&model);
-    let mut weights = vec![0.0; n];
-    let mut normal = Matrix6::zeros();
-    for &i in &kept {
-        weights[i] = Loss::weight((r[i] / sigma_m).powi(2));
-        let j = derivatives(&model.apply(&pairs.camera[i]).coords);
-        normal += j.transpose() * j;
-    }
-    let loss = Loss::efficiency_loss(kept.iter().map(|&i| (r[i] / sigma_m).powi(2)), USED);
-    let inverse = normal.cholesky()?.inverse();
-    Some(Fit {
-        model,
-        sigma_m,
-        weights,
-        covariance: (inverse + inverse.transpose()) * (0.5 * loss * sigma_m * sigma_m),
-    })
-}
-
-/// Of a place by a left perturbation, rotation first: `[−[p]× I]`.
-fn derivatives(place: &nalgebra::Vector3<f64>) -> Matrix3x6<f64> {
-    let mut j = Matrix3x6::zeros();
-    j.fixed_view_mut::<3, 3>(0, 0)
-        .copy_from(&-twist::skew(place));
-    j.fixed_view_mut::<3, 3>(0, 3)
-        .copy_from(&Matrix3::identity());
-    j
 }
 
 #[derive(Clone, Copy)]
@@ -301,20 +179,4 @@ fn quality(
         sigma_rotation_rad: spread(&camera.rotation_covariance_rad2()),
         warnings,
     }
-}
-
-/// The fit without sample `i`; `None` where the rest does not determine it.
-fn left_out(pairs: &PointPairs, fit: &Fit, i: usize, options: &Options) -> Option<LeftOut> {
-    let others: Vec<usize> = fit.kept().filter(|&k| k != i).collect();
-    let weights: Vec<f64> = others.iter().map(|&k| fit.weights[k]).collect();
-    let model = pairs.fit_to(&others, Some(&weights))?;
-    Some(LeftOut {
-        translation_m: pairs.residual(&model, i),
-        rotation_rad: None,
-        shift_at_fruit_m: shift_at(
-            &model.isometry,
-            &fit.model.isometry,
-            options.fruit_distance_m,
-        ),
-    })
 }

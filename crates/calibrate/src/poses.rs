@@ -21,11 +21,8 @@ use pomona_transforms::{
     UncertainTransform,
 };
 use rand_core::Rng;
-use refine::Fit;
-use system::{Model, Pair, Scale};
-
-/// Three poses determine the unknowns; a fourth tells whether one of them is wrong.
-pub(crate) const LEAST_POSES: usize = 4;
+use refine::{Fit, LEAST_POSES};
+use system::{HandEyeModel, Pair, Scale};
 
 /// Fewer samples than this are no safeguard against a wrong one.
 const SAFE_POSES: usize = 8;
@@ -193,12 +190,12 @@ fn search<R: Rng + ?Sized>(
     tolerance: Scale,
     options: &Options,
     rng: &mut R,
-) -> Result<(PoseSolver, Model, Vec<usize>), CalibrateError> {
+) -> Result<(PoseSolver, HandEyeModel, Vec<usize>), CalibrateError> {
     let needed = LEAST_POSES.max(pairs.len() / 2 + 1);
     let engine = Ransac::new(Msac::within(1.0))
         .local_optimization(LeastSquares::default())
         .stopping(FixedCount::new(u64::from(options.hypotheses)).max_draws(20_000));
-    let mut best: Option<(f64, PoseSolver, Model, Vec<usize>)> = None;
+    let mut best: Option<(f64, PoseSolver, HandEyeModel, Vec<usize>)> = None;
     for &solver in solvers {
         let estimator = PosePairs {
             pairs,

@@ -18,7 +18,7 @@ pub const RECORD_SCHEMA: &str = "pomona.calibration/1";
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
-pub enum Kind {
+pub enum CalibrationKind {
     /// A camera that stands still, from point pairs: [`calibrate_points`].
     Points,
     /// A camera that stands still and a target on the flange, AX = XB: [`calibrate_eye_to_hand`].
@@ -29,7 +29,7 @@ pub enum Kind {
     RobotWorld,
 }
 
-impl Kind {
+impl CalibrationKind {
     /// Its name on the command line and in records.
     pub fn name(self) -> &'static str {
         match self {
@@ -51,23 +51,23 @@ impl Kind {
 
 /// A calibration as it is written down: the transform for the robot's programs, and the record for people.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Outcome {
+pub struct Calibration {
     /// Where the camera is.
-    pub camera: CameraPlace,
+    pub camera: CameraTransform,
     /// What was found, and how good it is.
-    pub record: Record,
+    pub record: CalibrationRecord,
 }
 
 /// Where the camera is, by what it is fixed to.
 #[derive(Clone, Debug, PartialEq)]
-pub enum CameraPlace {
+pub enum CameraTransform {
     /// It stands still: `robot_from_camera`, which `pomona pick --transform` reads.
     OnBase(NamedTransform<RobotFrame, CameraFrame>),
     /// It is on the flange: `flange_from_camera`, to be joined with the flange's pose of the moment.
     OnFlange(NamedTransform<FlangeFrame, CameraFrame>),
 }
 
-impl CameraPlace {
+impl CameraTransform {
     /// Writes the transform's file, as [`NamedTransform::write`] does.
     ///
     /// # Errors
@@ -84,11 +84,11 @@ impl CameraPlace {
 /// The record of a calibration, as JSON.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
-pub struct Record {
+pub struct CalibrationRecord {
     /// [`RECORD_SCHEMA`].
     pub schema: &'static str,
     /// What was calibrated.
-    pub kind: Kind,
+    pub kind: CalibrationKind,
     /// Seed of the search.
     pub seed: u64,
     /// The answer.
@@ -182,19 +182,19 @@ impl<'a> Names<'a> {
 /// for it.
 pub fn calibrate(
     set: &SampleSet,
-    kind: Kind,
+    kind: CalibrationKind,
     options: &Options,
     seed: u64,
-) -> Result<Outcome, CalibrateError> {
+) -> Result<Calibration, CalibrateError> {
     let rng = &mut ChaCha8Rng::seed_from_u64(seed);
     let names = Names::of(&set.frames);
     match (kind, &set.samples) {
-        (Kind::Points, Samples::Points(samples)) => {
+        (CalibrationKind::Points, Samples::Points(samples)) => {
             let found = calibrate_points(samples, options, rng)?;
             let camera = TransformRecord::new(&found.camera, names.robot, names.camera);
-            Ok(Outcome {
-                camera: CameraPlace::OnBase(named(&found.camera, &camera)),
-                record: Record {
+            Ok(Calibration {
+                camera: CameraTransform::OnBase(named(&found.camera, &camera)),
+                record: CalibrationRecord {
                     schema: RECORD_SCHEMA,
                     kind,
                     seed,
@@ -207,25 +207,25 @@ pub fn calibrate(
                 },
             })
         }
-        (Kind::EyeToHand | Kind::RobotWorld, Samples::Poses(samples)) => {
-            let found = if kind == Kind::EyeToHand {
+        (CalibrationKind::EyeToHand | CalibrationKind::RobotWorld, Samples::Poses(samples)) => {
+            let found = if kind == CalibrationKind::EyeToHand {
                 calibrate_eye_to_hand(samples, options, rng)?
             } else {
                 calibrate_robot_world(samples, options, rng)?
             };
             let camera = TransformRecord::new(&found.camera, names.robot, names.camera);
             let target = TransformRecord::new(&found.target, names.flange, names.target);
-            Ok(Outcome {
-                camera: CameraPlace::OnBase(named(&found.camera, &camera)),
+            Ok(Calibration {
+                camera: CameraTransform::OnBase(named(&found.camera, &camera)),
                 record: of_poses(kind, seed, camera, target, found),
             })
         }
-        (Kind::EyeInHand, Samples::Poses(samples)) => {
+        (CalibrationKind::EyeInHand, Samples::Poses(samples)) => {
             let found = calibrate_eye_in_hand(samples, options, rng)?;
             let camera = TransformRecord::new(&found.camera, names.flange, names.camera);
             let target = TransformRecord::new(&found.target, names.robot, names.target);
-            Ok(Outcome {
-                camera: CameraPlace::OnFlange(named(&found.camera, &camera)),
+            Ok(Calibration {
+                camera: CameraTransform::OnFlange(named(&found.camera, &camera)),
                 record: of_poses(kind, seed, camera, target, found),
             })
         }
@@ -250,13 +250,13 @@ fn named<To: FrameTag, From: FrameTag>(
 }
 
 fn of_poses<Carrier: FrameTag, Other: FrameTag>(
-    kind: Kind,
+    kind: CalibrationKind,
     seed: u64,
     camera: TransformRecord,
     target: TransformRecord,
     found: PoseCalibration<Carrier, Other>,
-) -> Record {
-    Record {
+) -> CalibrationRecord {
+    CalibrationRecord {
         schema: RECORD_SCHEMA,
         kind,
         seed,

@@ -13,6 +13,10 @@ const FREEDOM: f64 = 10.0;
 const GATE_3: f64 = 16.27;
 const GATE_6: f64 = 22.46;
 
+/// Median of the norm of three independent standard normal numbers: the root of the median of χ² with 3 degrees of
+/// freedom, 2.365 974.
+pub(crate) const MEDIAN_NORM_OF_3: f64 = 1.538_172;
+
 /// A loss for residuals of `D` components, each of standard deviation 1.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct StudentT<const D: usize>;

@@ -1,7 +1,7 @@
 use anyhow::bail;
-use nalgebra::{Point3, distance};
-use pomona::{Evidence, Outcome, Pick, Status};
-use pomona_cloud::{CloudError, Frame, PixelWindow, PointCloud};
+use nalgebra::distance;
+use pomona::{AppleAnswer, CheckedFrame, FrameAnswer};
+use pomona_cloud::PointCloud;
 use pomona_view::{CloudMark, colored_cloud};
 use std::str::FromStr;
 
@@ -40,33 +40,25 @@ impl FromStr for CloudChoice {
 
 impl CloudChoice {
     /// The numbers of the apples chosen.
-    pub(crate) fn of(&self, outcome: &Outcome) -> anyhow::Result<Vec<usize>> {
-        let picks = &outcome.record.picks;
-        let with_sphere = picks.iter().filter(|p| p.apple.is_some());
-        let surface = |p: &&Pick| {
-            (
-                p.apple.as_ref().map_or(0, |a| a.inliers),
-                std::cmp::Reverse(p.id),
-            )
+    pub(crate) fn of(&self, answer: &FrameAnswer) -> anyhow::Result<Vec<usize>> {
+        let surface = |a: &AppleAnswer| {
+            let inliers = a.apple.map_or(0, |apple| apple.inliers);
+            (inliers, std::cmp::Reverse(a.id))
         };
+        let apples = answer.apples.iter().filter(|a| a.apple.is_some());
         Ok(match self {
             Self::None => Vec::new(),
-            Self::All => with_sphere.map(|p| p.id).collect(),
+            Self::All => apples.map(|a| a.id).collect(),
             Self::Best => {
-                let picked = with_sphere.filter(|p| p.status == Status::Picked);
-                picked
-                    .max_by_key(surface)
-                    .map(|p| p.id)
-                    .into_iter()
-                    .collect()
+                let picked = apples.filter(|a| a.is_picked());
+                let best = picked.max_by_key(|a| surface(a));
+                best.map(|a| a.id).into_iter().collect()
             }
             Self::Ids(ids) => {
-                if let Some(id) = ids.iter().find(|&&id| id >= picks.len()) {
-                    let frame = &outcome.record.frame.id;
-                    bail!(
-                        "--clouds {id}: frame '{frame}' has {} apples, numbered from 0",
-                        picks.len()
-                    );
+                let count = answer.apples.len();
+                if let Some(id) = ids.iter().find(|&&id| id >= count) {
+                    let frame = &answer.id;
+                    bail!("--clouds {id}: frame '{frame}' has {count} apples, numbered from 0");
                 }
                 ids.clone()
             }
@@ -75,28 +67,27 @@ impl CloudChoice {
 }
 
 /// The points of a frame, from which the clouds of its apples are cut.
-pub(crate) struct AppleClouds {
+pub(crate) struct AppleClouds<'a> {
     points: PointCloud,
     /// Pixel of each point, ascending.
-    pixels: Vec<u32>,
+    pixels: &'a [u32],
 }
 
-impl AppleClouds {
-    pub(crate) fn new(frame: &Frame) -> Result<Self, CloudError> {
-        let window = PixelWindow::full(frame.depth.width, frame.depth.height);
-        let points = frame.window(window)?;
-        Ok(Self {
-            points: PointCloud::from_points(&points, &frame.color),
-            pixels: points.pixel,
-        })
+impl<'a> AppleClouds<'a> {
+    pub(crate) fn new(frame: &'a CheckedFrame<'_>) -> Self {
+        let points = frame.points();
+        Self {
+            points: PointCloud::from_points(points, &frame.frame().color),
+            pixels: &points.pixel,
+        }
     }
 
     /// The surroundings of one apple: surface pink, branch green, direction red, the rest grey;
     /// `None` for an apple without a sphere.
-    pub(crate) fn cut(&self, pick: &Pick, evidence: &Evidence) -> Option<PointCloud> {
-        let apple = pick.apple.as_ref()?;
-        let center = Point3::from(apple.center);
-        let reach = REACH_RADII * apple.radius;
+    pub(crate) fn cut(&self, answer: &AppleAnswer) -> Option<PointCloud> {
+        let apple = answer.apple?;
+        let center = apple.center.point();
+        let reach = REACH_RADII * apple.radius_m;
         let kept: Vec<usize> = (0..self.points.len())
             .filter(|&i| distance(&self.points.point(i), &center) <= reach)
             .collect();
@@ -105,12 +96,17 @@ impl AppleClouds {
             let at = kept.binary_search_by_key(pixel, |&i| self.pixels[i]).ok()?;
             u32::try_from(at).ok()
         };
-        let surface: Vec<u32> = evidence.surface.iter().filter_map(index_of).collect();
-        let branch: Vec<u32> = evidence.branch.iter().filter_map(index_of).collect();
+        let surface: Vec<u32> = answer
+            .evidence
+            .surface
+            .iter()
+            .filter_map(index_of)
+            .collect();
+        let branch: Vec<u32> = answer.evidence.branch.iter().filter_map(index_of).collect();
         let mark = CloudMark {
             surface: &surface,
             branch: &branch,
-            arrow: pick.foot.map(|foot| (center, Point3::from(foot))),
+            arrow: answer.pick.map(|pick| (center, pick.foot.point())),
         };
         Some(colored_cloud(
             &self.points.select(kept.iter().copied()),

@@ -1,6 +1,6 @@
 use crate::terminal::Terminal;
 use crate::{calibrate, completions, config, convert, detect, evaluate, inspect, pick, scenes};
-use clap::{ArgAction, ColorChoice, Parser, Subcommand, value_parser};
+use clap::{ArgAction, ColorChoice, CommandFactory, Parser, Subcommand, value_parser};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -73,7 +73,7 @@ impl Arguments {
             Command::Convert(arguments) => convert::run(arguments),
             Command::Inspect(arguments) => inspect::run(arguments, terminal),
             Command::Config(arguments) => config::run(arguments),
-            Command::Completions(arguments) => completions::run(arguments),
+            Command::Completions(arguments) => completions::run(arguments, Self::command()),
         }
     }
 
@@ -100,7 +100,6 @@ impl Arguments {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use clap::CommandFactory;
 
     #[test]
     fn the_command_line_is_consistent() {

@@ -1,12 +1,13 @@
 //! `pomona calibrate`: where the camera is, from samples.
 
+use crate::output_folder::{OutputFolder, RecordFile};
 use crate::terminal::{self, FAINT, GOOD, HEADING, REFUSED, Terminal, one_line};
 use anyhow::{anyhow, bail};
 use clap::{Args, ValueEnum};
-use pomona_calibrate::{Kind, Options, Outcome, RECORD_SCHEMA, Record, SampleSet, calibrate};
-use serde::Deserialize;
+use pomona_calibrate::{
+    Calibration, CalibrationKind, CalibrationRecord, Options, RECORD_SCHEMA, SampleSet, calibrate,
+};
 use std::fmt::Write as _;
-use std::fs;
 use std::path::{Path, PathBuf};
 
 const EXAMPLES: &str = "\
@@ -33,12 +34,12 @@ enum KindName {
 }
 
 impl KindName {
-    fn kind(self) -> Kind {
+    fn kind(self) -> CalibrationKind {
         match self {
-            Self::Points => Kind::Points,
-            Self::EyeToHand => Kind::EyeToHand,
-            Self::EyeInHand => Kind::EyeInHand,
-            Self::RobotWorld => Kind::RobotWorld,
+            Self::Points => CalibrationKind::Points,
+            Self::EyeToHand => CalibrationKind::EyeToHand,
+            Self::EyeInHand => CalibrationKind::EyeInHand,
+            Self::RobotWorld => CalibrationKind::RobotWorld,
         }
     }
 }
@@ -82,9 +83,7 @@ pub(crate) struct CalibrateArguments {
 }
 
 pub(crate) fn run(arguments: &CalibrateArguments, terminal: Terminal) -> anyhow::Result<()> {
-    let report = report_path(&arguments.out);
-    refuse_foreign(&arguments.out, pomona_transforms::SCHEMA)?;
-    refuse_foreign(&report, RECORD_SCHEMA)?;
+    let files = Files::claim(&arguments.out)?;
     let mut set = SampleSet::read(&arguments.samples)?;
     for (given, id) in [
         (&arguments.robot_frame, &mut set.frames.robot),
@@ -103,11 +102,11 @@ pub(crate) fn run(arguments: &CalibrateArguments, terminal: Terminal) -> anyhow:
     };
     let kind = arguments
         .kind
-        .map_or_else(|| Kind::of(&set.samples), KindName::kind);
+        .map_or_else(|| CalibrationKind::of(&set.samples), KindName::kind);
     let outcome = calibrate(&set, kind, &options, arguments.seed)
         .map_err(|e| anyhow!("{}: {e}", arguments.samples.display()))?;
     let json = serde_json::to_string_pretty(&outcome.record)? + "\n";
-    write(&outcome, &json, &arguments.out, &report)?;
+    files.write(&outcome, &json)?;
     if arguments.json {
         return terminal::print(&json);
     }
@@ -115,60 +114,64 @@ pub(crate) fn run(arguments: &CalibrateArguments, terminal: Terminal) -> anyhow:
     terminal::print(&format!(
         "{text}\nwritten to {} and {}\n",
         arguments.out.display(),
-        report.display()
+        arguments.out.with_file_name(&files.report).display()
     ))
 }
 
-/// `robot_from_camera.json` → `robot_from_camera.report.json`.
-fn report_path(out: &Path) -> PathBuf {
-    let stem = out.file_stem().unwrap_or_default().to_string_lossy();
-    out.with_file_name(format!("{stem}.report.json"))
+/// The transform's file and that of its report, in one folder.
+struct Files {
+    folder: OutputFolder,
+    transform: String,
+    report: String,
 }
 
-/// Refuses to replace a file that is not of this schema.
-fn refuse_foreign(path: &Path, schema: &str) -> anyhow::Result<()> {
-    #[derive(Deserialize)]
-    struct Head {
-        schema: String,
+impl Files {
+    /// Claims `robot_from_camera.json` and `robot_from_camera.report.json`.
+    fn claim(out: &Path) -> anyhow::Result<Self> {
+        let Some(name) = out.file_name().filter(|_| !out.is_dir()) else {
+            bail!("{}: is a folder; name a file by --out", out.display());
+        };
+        let parent = out.parent().unwrap_or(Path::new(""));
+        if !parent.as_os_str().is_empty() && !parent.is_dir() {
+            bail!(
+                "{}: cannot be written: there is no folder {}; make it, or name another by --out",
+                out.display(),
+                parent.display()
+            );
+        }
+        let stem = out.file_stem().unwrap_or_default().to_string_lossy();
+        let (transform, report) = (
+            name.to_string_lossy().into_owned(),
+            format!("{stem}.report.json"),
+        );
+        let records = [
+            RecordFile {
+                name: &transform,
+                schema: pomona_transforms::SCHEMA,
+            },
+            RecordFile {
+                name: &report,
+                schema: RECORD_SCHEMA,
+            },
+        ];
+        let folder = OutputFolder::claim(parent, &records, |_| false)?;
+        Ok(Self {
+            folder,
+            transform,
+            report,
+        })
     }
-    if path.is_dir() {
-        bail!("{}: is a folder; name a file by --out", path.display());
+
+    /// Writes both, or neither.
+    fn write(&self, outcome: &Calibration, report: &str) -> anyhow::Result<()> {
+        let files = self.folder.stage()?;
+        outcome.camera.write(files.file(&self.transform))?;
+        files.write_text(&self.report, report)?;
+        files.publish()
     }
-    let Ok(bytes) = fs::read(path) else {
-        return Ok(());
-    };
-    let head = serde_json::from_slice::<Head>(&bytes).ok();
-    if head.is_some_and(|head| head.schema == schema) {
-        return Ok(());
-    }
-    bail!(
-        "{}: would be replaced, and is no {schema} of this program; name another file by --out",
-        path.display()
-    )
 }
 
-/// Writes both files, or neither.
-fn write(outcome: &Outcome, json: &str, out: &Path, report: &Path) -> anyhow::Result<()> {
-    let hidden = format!(".pomona-{}.part", std::process::id());
-    let part = report.with_file_name(hidden);
-    let refused = |e: std::io::Error| {
-        anyhow!(
-            "{}: cannot be written: {e}; check that the folder exists, is writable and has room",
-            report.display()
-        )
-    };
-    let written = fs::write(&part, json)
-        .map_err(refused)
-        .and_then(|()| Ok(outcome.camera.write(out)?))
-        .and_then(|()| fs::rename(&part, report).map_err(refused));
-    if written.is_err() {
-        // The first error is the one to report.
-        let _ = fs::remove_file(&part);
-    }
-    written
-}
-
-fn table(record: &Record, terminal: Terminal) -> String {
+fn table(record: &CalibrationRecord, terminal: Terminal) -> String {
     let quality = &record.quality;
     let has_rotation = quality.noise_rotation_rad.is_some();
     let mut text = String::new();
@@ -227,7 +230,7 @@ fn table(record: &Record, terminal: Terminal) -> String {
     text
 }
 
-fn summary(record: &Record, terminal: Terminal) -> String {
+fn summary(record: &CalibrationRecord, terminal: Terminal) -> String {
     let (camera, quality) = (&record.camera, &record.quality);
     let list = |numbers: &[f64], digits: usize| {
         let numbers = numbers.iter().map(|n| format!("{n:.digits$}"));

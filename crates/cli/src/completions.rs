@@ -1,6 +1,5 @@
-use crate::arguments::Arguments;
 use crate::terminal;
-use clap::{Args, CommandFactory};
+use clap::{Args, Command};
 use clap_complete::Shell;
 
 const EXAMPLES: &str = "\
@@ -16,10 +15,10 @@ pub(crate) struct CompletionsArguments {
     shell: Shell,
 }
 
-pub(crate) fn run(arguments: &CompletionsArguments) -> anyhow::Result<()> {
+/// Prints the completions of `command`, the whole command line.
+pub(crate) fn run(arguments: &CompletionsArguments, mut command: Command) -> anyhow::Result<()> {
     // Into memory first: the generator panics where its writer fails.
     let mut script = Vec::new();
-    let mut command = Arguments::command();
     clap_complete::generate(arguments.shell, &mut command, "pomona", &mut script);
     terminal::print(&String::from_utf8_lossy(&script))
 }

@@ -7,10 +7,9 @@ mod text;
 
 use crate::detector::DetectorArguments;
 use crate::image_paths::{NamedImage, images};
-use crate::output_folder::{OutputFolder, write_text};
+use crate::output_folder::{OutputFolder, Staging};
 use crate::progress;
 use crate::terminal::{self, Terminal};
-use anyhow::bail;
 use clap::{Args, ValueEnum};
 use pomona_cloud::{
     BoxFormat, CocoCategory, CocoDataset, CocoImage, ColorImage, LabelledBox, PixelBox, write_boxes,
@@ -78,14 +77,13 @@ pub(crate) struct DetectArguments {
 pub(crate) fn run(arguments: &DetectArguments, terminal: Terminal) -> anyhow::Result<()> {
     // What is wrong with the command line is said before a model is loaded.
     let images = images(&arguments.images)?;
-    let earlier = record::files_of_earlier_run(&arguments.out.join(DETECTIONS));
-    refuse_foreign(arguments, &images, &earlier)?;
+    let output = claim(arguments, &images)?;
     let opening = Instant::now();
     let detector = arguments.detector.open()?;
     let job = Job {
         arguments,
         images: &images,
-        earlier: &earlier,
+        output: &output,
         detector: &*detector,
         open_ms: milliseconds(opening),
     };
@@ -107,8 +105,7 @@ pub(crate) fn say(report: &DetectorReport, terminal: Terminal) {
 struct Job<'a> {
     arguments: &'a DetectArguments,
     images: &'a [NamedImage],
-    /// Files that an earlier run wrote.
-    earlier: &'a [String],
+    output: &'a OutputFolder,
     detector: &'a dyn Detector,
     open_ms: f64,
 }
@@ -118,7 +115,7 @@ impl Job<'_> {
         let arguments = self.arguments;
         let report = self.detector.report();
         say(&report, terminal);
-        let output = OutputFolder::new(&arguments.out)?;
+        let output = self.output.stage()?;
         let bar = progress::bar(self.images.len());
         let mut records = Vec::new();
         for image in self.images {
@@ -132,8 +129,8 @@ impl Job<'_> {
         }
         let record = DetectionsRecord::new(report, self.open_ms, records);
         let json = serde_json::to_string_pretty(&record)? + "\n";
-        write_text(&output, DETECTIONS, &json)?;
-        output.publish_replacing(DETECTIONS, |name| self.earlier.iter().any(|e| e == name))?;
+        output.write_text(DETECTIONS, &json)?;
+        output.publish()?;
         if arguments.json {
             return terminal::print(&json);
         }
@@ -148,7 +145,7 @@ fn detect(
     arguments: &DetectArguments,
     image: &NamedImage,
     detector: &dyn Detector,
-    output: &OutputFolder,
+    output: &Staging<'_>,
 ) -> anyhow::Result<ImageRecord> {
     let reading = Instant::now();
     let pixels = ColorImage::read(&image.path)?;
@@ -233,17 +230,9 @@ fn coco(records: &[ImageRecord], images: &[NamedImage]) -> CocoDataset {
     }
 }
 
-/// Refuses to replace a file that an earlier run of this command did not write.
-fn refuse_foreign(
-    arguments: &DetectArguments,
-    images: &[NamedImage],
-    earlier: &[String],
-) -> anyhow::Result<()> {
-    let folder = &arguments.out;
-    if folder.exists() && !folder.is_dir() {
-        bail!("--out {}: is a file; name a folder", folder.display());
-    }
-    let mut written = vec![DETECTIONS.to_owned()];
+/// Claims the names of the files that this run writes.
+fn claim(arguments: &DetectArguments, images: &[NamedImage]) -> anyhow::Result<OutputFolder> {
+    let mut written = Vec::new();
     if arguments.format == Format::Coco {
         written.push(COCO.to_owned());
     }
@@ -253,14 +242,8 @@ fn refuse_foreign(
             written.push(picture_name(&image.name));
         }
     }
-    let is_foreign = |name: &&String| folder.join(name).exists() && !earlier.contains(name);
-    if let Some(name) = written.iter().find(is_foreign) {
-        bail!(
-            "{}: would be replaced, and no {DETECTIONS} says that this program wrote it; name another folder by --out",
-            folder.join(name).display()
-        );
-    }
-    Ok(())
+    let earlier = record::files_of_earlier_run(&arguments.out.join(DETECTIONS));
+    OutputFolder::claim_listed(&arguments.out, DETECTIONS, &written, &earlier)
 }
 
 fn milliseconds(since: Instant) -> f64 {

@@ -4,7 +4,7 @@ use pomona_detect::{
 };
 use std::path::PathBuf;
 
-/// What `--model` calls the model that comes along.
+/// What `--model` calls the bundled model.
 pub(crate) const BUILT_IN: &str = "built-in";
 
 /// Heading of these options.
@@ -19,7 +19,7 @@ pub(crate) struct DetectorArguments {
     /// Which of the model's classes is an apple, by name or number. Default: by the model's description, else 0.
     #[arg(long, value_name = "NAME|N", value_parser = parse_class, help_heading = HEADING)]
     class: Option<ClassChoice>,
-    /// Lowest score of a box, 0 to 1. Default: by the model's description, else its family's usual.
+    /// Lowest score of a box, 0 to 1. Default: by the model's description, else 0.25.
     #[arg(long, value_name = "SCORE", value_parser = parse_share, help_heading = HEADING)]
     threshold: Option<f64>,
     #[command(flatten)]
@@ -29,14 +29,15 @@ pub(crate) struct DetectorArguments {
 /// How detectors run, whichever they are.
 #[derive(Clone, Debug, Default, Args)]
 pub(crate) struct DetectorSettings {
-    /// What runs the model: auto (ONNX Runtime where it is found, else the embedded one), onnxruntime, embedded, or
-    /// the path of an ONNX Runtime library.
+    /// Inference backend: auto (ONNX Runtime where it is found, else the embedded one), onnxruntime, embedded, or the
+    /// path of an ONNX Runtime library.
     #[arg(long, value_name = "NAME|PATH", default_value = "auto", value_parser = parse_runtime, help_heading = HEADING)]
     runtime: RuntimeChoice,
-    /// Overlap (intersection over union) above which two boxes are one apple, 0 to 1. Default: by the model.
+    /// Intersection over union above which of two boxes only the better one is kept, 0 to 1. Default: by the model's
+    /// description, else 0.45.
     #[arg(long, value_name = "IOU", value_parser = parse_share, help_heading = HEADING)]
-    overlap: Option<f64>,
-    /// How a large image is cut: auto, whole, or columns and rows such as 3x2.
+    nms_iou: Option<f64>,
+    /// How a large image is tiled: auto, whole, or columns and rows such as 3x2.
     #[arg(long, value_name = "TILES", default_value = "auto", value_parser = parse_tiles, help_heading = HEADING)]
     tiles: TilingChoice,
 }
@@ -44,7 +45,7 @@ pub(crate) struct DetectorSettings {
 /// A model as the command line names it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Model {
-    /// The one that comes along.
+    /// The bundled one.
     BuiltIn,
     /// This file.
     File(PathBuf),
@@ -75,7 +76,7 @@ impl DetectorSettings {
             runtime: self.runtime.clone(),
             class,
             threshold,
-            overlap: self.overlap,
+            nms_iou: self.nms_iou,
             tiling: self.tiles,
         }
     }
@@ -121,8 +122,7 @@ fn parse_runtime(text: &str) -> Result<RuntimeChoice, String> {
 }
 
 fn parse_tiles(text: &str) -> Result<TilingChoice, String> {
-    /// More tiles than this would be smaller than any model's input on any image.
-    const MOST: usize = 64;
+    const MOST: usize = TilingChoice::LARGEST_GRID;
     let side = |text: &str| text.parse().ok().filter(|n| (1..=MOST).contains(n));
     match text {
         "auto" => Ok(TilingChoice::Automatic),
@@ -179,14 +179,14 @@ mod tests {
 
     #[test]
     fn each_choice_arrives() {
-        let line = "--model m.onnx --runtime ./libonnxruntime.so --class 47 --threshold 0.3 --overlap 0.45 --tiles 3x2";
+        let line = "--model m.onnx --runtime ./libonnxruntime.so --class 47 --threshold 0.3 --nms-iou 0.45 --tiles 3x2";
         let line: Vec<&str> = line.split(' ').collect();
         let expected = DetectorOptions {
             model: Some("m.onnx".into()),
             runtime: RuntimeChoice::Library("./libonnxruntime.so".into()),
             class: Some(ClassChoice::Number(47)),
             threshold: Some(0.3),
-            overlap: Some(0.45),
+            nms_iou: Some(0.45),
             tiling: TilingChoice::Grid {
                 columns: 3,
                 rows: 2,
@@ -207,7 +207,7 @@ mod tests {
             ("--tiles", "999x2"),
             ("--threshold", "1.5"),
             ("--threshold", "NaN"),
-            ("--overlap", "-1"),
+            ("--nms-iou", "-1"),
             ("--class", ""),
             ("--model", ""),
         ] {

@@ -4,23 +4,24 @@ mod detection;
 mod detection_text;
 mod text;
 
-use crate::output_folder::{OutputFolder, PICKS, write_text};
+use crate::output_folder::{OutputFolder, RecordFile};
+use crate::pick::PICKS;
 use crate::progress;
+use crate::settings::SettingValues;
 use crate::terminal::{self, Terminal};
-use anyhow::bail;
+use anyhow::{anyhow, bail};
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 use pomona::{
-    ApproachConfig, Config, Method, Outcome, PickError, Picker, Record, Robot, RobotFromCamera,
+    ApproachConfig, CheckedFrame, Config, FrameAnswer, Method, PickError, Picker, Robot,
+    RobotFromCamera,
 };
 use pomona_cloud::Frame;
 use pomona_evaluate::{
     CALIPER_SCHEMA, CalibrationNoise, PickMethod, RobotTrial, SCHEMA, Subject, apples_csv,
     caliper_page, evaluate, evaluate_with_robot, measure_calipers, read_calipers, report_page,
 };
-use serde::de::IntoDeserializer;
-use serde::de::value::{Error, StrDeserializer};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use std::path::{Path, PathBuf};
 
 const EXAMPLES: &str = "\
@@ -30,6 +31,7 @@ Examples:
   pomona evaluate orchard@1000 --method paper --method robust --out out
                                                       other scenes: those of the seeds 1000, 1001, ...
   pomona evaluate orchard --count 50 --json --out out | jq '.results[].angle.error.mean'
+  pomona evaluate orchard --set robust.blocks=12 --out out
   pomona evaluate orchard --robot --out out           the gripper in the base's frame, after a simulated calibration
   pomona evaluate --calipers calipers.csv frames/a frames/b --out out
   pomona evaluate --detection tiles --out out         the built-in model on images with labels
@@ -60,9 +62,6 @@ pub(crate) struct EvaluateArguments {
     /// A method; may be repeated, to set methods side by side. Default: that of the settings.
     #[arg(long = "method", value_name = "NAME", value_parser = PossibleValuesParser::new(Method::ALL.map(Method::name)))]
     methods: Vec<String>,
-    /// Settings from a TOML file; what it leaves out keeps its default (see `pomona config`).
-    #[arg(long, value_name = "FILE")]
-    config: Option<PathBuf>,
     /// Other settings to set beside the methods: a TOML file, whose name without its ending stands for them; may be
     /// repeated.
     #[arg(long = "variant", value_name = "FILE")]
@@ -100,6 +99,8 @@ pub(crate) struct EvaluateArguments {
     json: bool,
     #[command(flatten)]
     detection: detection::DetectionArguments,
+    #[command(flatten)]
+    settings: SettingValues,
 }
 
 pub(crate) fn run(arguments: &EvaluateArguments, terminal: Terminal) -> anyhow::Result<()> {
@@ -125,17 +126,17 @@ impl PickMethod for Named {
         &self.name
     }
 
-    fn answer(&self, frame: &Frame, seed: u64) -> Result<Record, PickError> {
+    fn answer(&self, frame: &CheckedFrame<'_>, seed: u64) -> Result<FrameAnswer, PickError> {
         self.picker.answer(frame, seed)
     }
 
-    fn outcome(
+    fn answer_for_robot(
         &self,
-        frame: &Frame,
+        frame: &CheckedFrame<'_>,
         seed: u64,
         robot_from_camera: &RobotFromCamera,
-    ) -> Result<Outcome, PickError> {
-        self.picker.outcome(frame, seed, robot_from_camera)
+    ) -> Result<FrameAnswer, PickError> {
+        self.picker.answer_for_robot(frame, seed, robot_from_camera)
     }
 }
 
@@ -181,17 +182,14 @@ fn pickers(arguments: &EvaluateArguments) -> anyhow::Result<Vec<Named>> {
 }
 
 fn methods(arguments: &EvaluateArguments) -> anyhow::Result<Vec<Picker>> {
-    let config = match &arguments.config {
-        Some(path) => Config::read(path)?,
-        None => Config::default(),
-    };
+    let config = arguments.settings.config()?;
     if arguments.methods.is_empty() {
         return Ok(vec![Picker::new(config)?]);
     }
     let mut pickers: Vec<Picker> = Vec::new();
     for name in &arguments.methods {
-        let deserializer: StrDeserializer<'_, Error> = name.as_str().into_deserializer();
-        let method = Method::deserialize(deserializer)?;
+        let method = Method::from_name(name)
+            .ok_or_else(|| anyhow!("--method {name}: there is no such method"))?;
         if pickers.iter().any(|p| p.config().method == method) {
             bail!("--method {name} stands twice; give each method once");
         }
@@ -208,7 +206,7 @@ fn against_truth(
     methods: &[&dyn PickMethod],
     terminal: Terminal,
 ) -> anyhow::Result<()> {
-    refuse_foreign(&arguments.out, EVALUATION, SCHEMA)?;
+    let output = claim(&arguments.out, EVALUATION, SCHEMA, |n| n == APPLES)?;
     let trial = trial(arguments)?;
     let mut subjects: Vec<Subject> = Vec::new();
     for name in &arguments.subjects {
@@ -232,11 +230,11 @@ fn against_truth(
         None => evaluate(&subjects, methods, seed, &done)?,
     };
     bar.finish_and_clear();
-    let output = OutputFolder::new(&arguments.out)?;
-    write_text(&output, EVALUATION, &json(&evaluation)?)?;
-    write_text(&output, APPLES, &apples_csv(&evaluation)?)?;
-    write_text(&output, REPORT, &report_page(&evaluation)?)?;
-    output.publish()?;
+    let files = output.stage()?;
+    files.write_text(EVALUATION, &json(&evaluation)?)?;
+    files.write_text(APPLES, &apples_csv(&evaluation)?)?;
+    files.write_text(REPORT, &report_page(&evaluation)?)?;
+    files.publish()?;
     say(
         arguments,
         &evaluation,
@@ -250,7 +248,7 @@ fn against_calipers(
     methods: &[&dyn PickMethod],
     terminal: Terminal,
 ) -> anyhow::Result<()> {
-    refuse_foreign(&arguments.out, CALIPERS, CALIPER_SCHEMA)?;
+    let output = claim(&arguments.out, CALIPERS, CALIPER_SCHEMA, |_| false)?;
     let calipers = read_calipers(calipers)?;
     let frames: Vec<Frame> = arguments
         .subjects
@@ -258,10 +256,10 @@ fn against_calipers(
         .map(Frame::read)
         .collect::<Result<_, _>>()?;
     let report = measure_calipers(&frames, &calipers, methods, arguments.seed)?;
-    let output = OutputFolder::new(&arguments.out)?;
-    write_text(&output, CALIPERS, &json(&report)?)?;
-    write_text(&output, REPORT, &caliper_page(&report)?)?;
-    output.publish()?;
+    let files = output.stage()?;
+    files.write_text(CALIPERS, &json(&report)?)?;
+    files.write_text(REPORT, &caliper_page(&report)?)?;
+    files.publish()?;
     say(arguments, &report, &text::calipers(&report, terminal))
 }
 
@@ -277,35 +275,24 @@ fn say(arguments: &EvaluateArguments, result: &impl Serialize, text: &str) -> an
     terminal::print(&format!("{text}\nwritten to {place}\n"))
 }
 
-/// Refuses a folder in which our files would replace somebody else's.
-fn refuse_foreign(folder: &Path, main: &str, schema: &str) -> anyhow::Result<()> {
-    #[derive(Deserialize)]
-    struct Head {
-        schema: String,
-    }
+/// Claims the names of an evaluation's record and its page, and those that `writes` knows.
+fn claim(
+    folder: &Path,
+    record: &str,
+    schema: &str,
+    writes: impl Fn(&str) -> bool,
+) -> anyhow::Result<OutputFolder> {
     if folder.join(PICKS).exists() {
         bail!(
             "{}: holds the answers of `pomona pick`; name another folder by --out",
             folder.display()
         );
     }
-    let path = folder.join(main);
-    let head = std::fs::read(&path)
-        .ok()
-        .and_then(|bytes| serde_json::from_slice::<Head>(&bytes).ok());
-    if head.is_some_and(|head| head.schema == schema) {
-        return Ok(());
-    }
-    let sheet = detection::sheet_name(1);
-    for name in [EVALUATION, CALIPERS, APPLES, DETECTION, REPORT, &sheet] {
-        if folder.join(name).exists() {
-            bail!(
-                "{}: would be replaced, and no {main} says that this program wrote it; name another folder by --out",
-                folder.join(name).display()
-            );
-        }
-    }
-    Ok(())
+    let record = RecordFile {
+        name: record,
+        schema,
+    };
+    OutputFolder::claim(folder, &[record], |name| name == REPORT || writes(name))
 }
 
 #[cfg(test)]
@@ -317,7 +304,6 @@ mod tests {
             subjects: vec!["lab15".to_owned()],
             out: PathBuf::new(),
             methods: methods.iter().map(ToString::to_string).collect(),
-            config: None,
             variants: Vec::new(),
             seed: 0,
             count: Some(1),
@@ -328,6 +314,7 @@ mod tests {
             calibration_poses: 15,
             json: false,
             detection: detection::DetectionArguments::default(),
+            settings: SettingValues::default(),
         }
     }
 

@@ -1,14 +1,13 @@
+use crate::output_folder::{OutputFolder, RecordFile};
 use crate::summary::plural;
 use crate::terminal::{self, FAINT, GOOD, HEADING, REFUSED, Terminal, one_line};
 use anyhow::{anyhow, bail};
-use pomona::{Record, RobotFromCamera};
+use pomona::{FrameAnswer, RobotFromCamera};
 use pomona_cloud::{CloudFormat, Frame};
 use pomona_fusion::{
-    DirectionUse, FusedApple, FusedCloud, FusedRecord, FusedStatus, Fusion, FusionConfig,
-    PosedRecord,
+    DirectionUse, FusedApple, FusedCloud, FusedRecord, FusedStatus, FusedTree, FusionConfig,
+    PosedAnswer,
 };
-use serde::Deserialize;
-use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The fused answers.
@@ -21,20 +20,20 @@ const POSE: &str = "robot_from_camera.json";
 /// One frame, answered.
 pub(crate) struct FusedInput<'a> {
     pub(crate) folder: &'a Path,
-    pub(crate) record: &'a Record,
+    pub(crate) answer: &'a FrameAnswer,
     pub(crate) pose: &'a RobotFromCamera,
 }
 
 /// What is to be fused, and where it goes.
 pub(crate) struct Task<'a> {
     pub(crate) frames: &'a [FusedInput<'a>],
-    pub(crate) out: &'a Path,
+    pub(crate) output: &'a OutputFolder,
     pub(crate) cloud: bool,
     pub(crate) json: bool,
 }
 
-/// Refuses what cannot be fused before any work is done.
-pub(crate) fn check(frames: &[PathBuf], out: &Path) -> anyhow::Result<()> {
+/// Refuses what cannot be fused before any work is done, and claims the names of the fused files.
+pub(crate) fn claim(frames: &[PathBuf], out: &Path) -> anyhow::Result<OutputFolder> {
     if frames.len() < 2 {
         bail!("--fuse takes at least two frames of one tree, and one is given");
     }
@@ -51,32 +50,11 @@ pub(crate) fn check(frames: &[PathBuf], out: &Path) -> anyhow::Result<()> {
         }
         seen.push((full, frame));
     }
-    let (record, cloud) = (out.join(FUSED), out.join(CLOUD));
-    if record.exists() {
-        if !is_fused(&record) {
-            bail!(
-                "{}: is not a result of this program; name another folder by --out",
-                record.display()
-            );
-        }
-    } else if cloud.exists() {
-        bail!(
-            "{}: would be replaced, and no {FUSED} says that this program wrote it; name another folder by --out",
-            cloud.display()
-        );
-    }
-    Ok(())
-}
-
-fn is_fused(path: &Path) -> bool {
-    #[derive(Deserialize)]
-    struct Head {
-        schema: String,
-    }
-    let head = fs::read(path)
-        .ok()
-        .and_then(|bytes| serde_json::from_slice::<Head>(&bytes).ok());
-    head.is_some_and(|head| head.schema.starts_with("pomona.fused/"))
+    let record = RecordFile {
+        name: FUSED,
+        schema: "pomona.fused/",
+    };
+    OutputFolder::claim(out, &[record], |name| name == CLOUD)
 }
 
 /// The poses of the frames' cameras, all in one frame of the robot.
@@ -118,66 +96,45 @@ fn pose(folder: &Path, of_all: Option<&RobotFromCamera>) -> anyhow::Result<Robot
 impl Task<'_> {
     /// Fuses, writes and prints.
     pub(crate) fn run(&self, config: &FusionConfig, terminal: Terminal) -> anyhow::Result<()> {
-        let posed: Vec<PosedRecord<'_>> = self
+        let posed: Vec<PosedAnswer<'_>> = self
             .frames
             .iter()
-            .map(|frame| PosedRecord {
-                record: frame.record,
-                robot_from_camera: frame.pose,
-            })
+            .map(|frame| PosedAnswer::new(frame.answer, frame.pose))
             .collect();
-        let fusion = pomona_fusion::fuse(&posed, config)?;
-        self.write(&fusion, config)?;
+        let tree = pomona_fusion::fuse(&posed, config)?;
+        let text = serde_json::to_string_pretty(&FusedRecord::from(&tree))? + "\n";
+        self.write(&tree, &text, config)?;
         if self.json {
-            terminal::print(&(serde_json::to_string_pretty(&fusion.record)? + "\n"))
+            terminal::print(&text)
         } else {
-            terminal::print(&("\n".to_owned() + &table(&fusion.record, terminal)))
+            terminal::print(&("\n".to_owned() + &table(&tree, terminal)))
         }
     }
 
-    /// The cloud first: whoever waits for the answers finds it in place.
-    fn write(&self, fusion: &Fusion, config: &FusionConfig) -> anyhow::Result<()> {
-        let cloud = self.out.join(CLOUD);
+    fn write(&self, tree: &FusedTree, text: &str, config: &FusionConfig) -> anyhow::Result<()> {
+        let files = self.output.stage()?;
         if self.cloud {
             let mut fused = FusedCloud::new(config.voxel_m);
-            for (input, correction) in self.frames.iter().zip(&fusion.corrections) {
+            for (input, fused_frame) in self.frames.iter().zip(&tree.frames) {
                 let frame = Frame::read(input.folder)?;
-                fused.add(&frame, input.pose, correction)?;
+                fused.add(&frame, input.pose, &fused_frame.correction)?;
             }
             fused
                 .cloud()
-                .write(&cloud, CloudFormat::PlyBinaryLittleEndian)?;
-        } else if cloud.exists() {
-            fs::remove_file(&cloud).map_err(|e| refused(&cloud, &e))?;
+                .write(files.file(CLOUD), CloudFormat::PlyBinaryLittleEndian)?;
         }
-        let record = self.out.join(FUSED);
-        let part = self
-            .out
-            .join(format!(".pomona-{}.part", std::process::id()));
-        let text = serde_json::to_string_pretty(&fusion.record)? + "\n";
-        let written = fs::write(&part, text).and_then(|()| fs::rename(&part, &record));
-        written.map_err(|e| {
-            // The first error is the one to report.
-            let _ = fs::remove_file(&part);
-            refused(&record, &e)
-        })
+        files.write_text(FUSED, text)?;
+        files.publish()
     }
 }
 
-fn refused(path: &Path, error: &std::io::Error) -> anyhow::Error {
-    anyhow!(
-        "{}: cannot be written: {error}; check that the place is writable and has room",
-        path.display()
-    )
-}
-
 /// What a person reads of the fused answers.
-fn table(record: &FusedRecord, terminal: Terminal) -> String {
+fn table(tree: &FusedTree, terminal: Terminal) -> String {
     let title = format!(
         "fused in {}: {} from {}",
-        one_line(&record.frame_id),
-        plural(record.apples.len(), "apple"),
-        plural(record.frames.len(), "frame")
+        one_line(&tree.frame_id),
+        plural(tree.apples.len(), "apple"),
+        plural(tree.frames.len(), "frame")
     );
     let mut text = terminal.paint(HEADING, &title) + "\n";
     let header = format!(
@@ -185,17 +142,17 @@ fn table(record: &FusedRecord, terminal: Terminal) -> String {
         "id", "status", "x mm", "y mm", "z mm", "sd mm", "r mm", "sd deg", "sure %", "moved mm"
     );
     text += &(terminal.paint(FAINT, &header) + "\n");
-    for apple in &record.apples {
+    for apple in &tree.apples {
         text += &(row(apple, terminal) + "\n");
     }
-    for (k, frame) in record.frames.iter().enumerate().skip(1) {
+    for (k, frame) in tree.frames.iter().enumerate().skip(1) {
         let name = one_line(&frame.id);
         let line = match &frame.shift {
             Some(shift) => format!(
                 "{name}: {} shared, {:.1} ± {:.1} mm off the first frame{}\n",
                 plural(frame.shared, "apple"),
-                shift.distance * 1e3,
-                shift.sd * 1e3,
+                shift.by.norm() * 1e3,
+                shift.sd_m * 1e3,
                 if shift.significant {
                     ": the tree swayed, or a pose is off"
                 } else {
@@ -210,7 +167,7 @@ fn table(record: &FusedRecord, terminal: Terminal) -> String {
 }
 
 fn row(apple: &FusedApple, terminal: Terminal) -> String {
-    let sd = (0..3).map(|i| apple.center_covariance[i][i]).sum::<f64>() / 3.0;
+    let sd_m = (apple.center.covariance_m2.trace() / 3.0).max(0.0).sqrt();
     let or_dash = |value: Option<String>| value.unwrap_or_else(|| "-".to_owned());
     let style = if apple.status == FusedStatus::Picked {
         GOOD
@@ -218,23 +175,27 @@ fn row(apple: &FusedApple, terminal: Terminal) -> String {
         REFUSED
     };
     let status = terminal.paint(style, &format!("{:<13}", apple.status.name()));
-    let [x, y, z] = apple.center.map(|c| c * 1e3);
+    let [x, y, z]: [f64; 3] = (apple.center.position.point() * 1e3).into();
     let outlier = apple
-        .sightings
+        .observations
         .iter()
-        .any(|s| s.direction == DirectionUse::Outlier);
+        .any(|o| o.direction_use == DirectionUse::Outlier);
     format!(
         "{:>3}  {status}  {x:>8.1} {y:>8.1} {z:>8.1} {:>6.1}  {:>5.1}  {:>6}  {:>6}  {:>8}  {}{}",
         apple.id,
-        sd.max(0.0).sqrt() * 1e3,
-        apple.radius * 1e3,
-        or_dash(apple.direction_sd.map(|s| format!("{:.1}", s.to_degrees()))),
+        sd_m * 1e3,
+        apple.radius_m * 1e3,
+        or_dash(
+            apple
+                .direction
+                .map(|d| format!("{:.1}", d.sd_rad.to_degrees()))
+        ),
         or_dash(apple.confidence.map(|c| format!("{:.0}", c * 100.0))),
         or_dash(
             apple
-                .moved
+                .movement
                 .as_ref()
-                .map(|m| format!("{:.1}", m.distance * 1e3))
+                .map(|m| format!("{:.1}", m.by.norm() * 1e3))
         ),
         apple.reason,
         if outlier { " (others dropped)" } else { "" }

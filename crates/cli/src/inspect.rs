@@ -1,3 +1,4 @@
+mod camera;
 mod cloud;
 mod document;
 mod facts;
@@ -83,7 +84,7 @@ fn facts_of(path: &Path) -> anyhow::Result<Facts> {
     }
     match extension.as_str() {
         "json" => document::json(path),
-        "yaml" | "yml" => document::camera(path),
+        "yaml" | "yml" => camera::facts(path),
         "toml" => document::settings(path),
         _ if cloud::is_cloud(&start) || CloudFormat::from_path(path).is_some() => {
             cloud::facts(path)

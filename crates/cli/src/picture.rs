@@ -1,7 +1,6 @@
-use nalgebra::{Isometry3, Point3, Quaternion, Translation3, UnitQuaternion};
-use pomona::{Evidence, Gripper, Outcome, Pick, RobotFromCamera, Status};
-use pomona_cloud::{ColorImage, Frame, PixelBox};
-use pomona_geometry::{Capsule, Segment, Sphere};
+use pomona::{AppleAnswer, FrameAnswer, Gripper, RobotFromCamera, Status};
+use pomona_cloud::{ColorImage, Frame};
+use pomona_geometry::{Capsule, Segment};
 use pomona_view::{AppleMark, Overlay, ViewError};
 
 /// More boxes than these leave no room for the reasons of refusals: those stand by their numbers in the table.
@@ -16,15 +15,15 @@ pub(crate) struct RobotView<'a> {
 /// The frame's colour image with its answers drawn over it.
 pub(crate) fn draw(
     frame: &Frame,
-    outcome: &Outcome,
+    answer: &FrameAnswer,
     robot: Option<&RobotView<'_>>,
 ) -> Result<ColorImage, ViewError> {
-    let picks = outcome.record.picks.iter();
-    let crowded = picks.len() > CROWDED;
-    let marks: Vec<AppleMark> = picks
-        .zip(&outcome.evidence)
-        .map(|(p, e)| {
-            let mut mark = mark(p, e, robot);
+    let crowded = answer.apples.len() > CROWDED;
+    let marks: Vec<AppleMark> = answer
+        .apples
+        .iter()
+        .map(|apple| {
+            let mut mark = mark(apple, robot);
             if crowded && mark.refused.is_some() {
                 mark.caption = None;
                 mark.refused = Some(String::new());
@@ -35,67 +34,48 @@ pub(crate) fn draw(
     Overlay::new(&frame.color, &frame.camera).draw(&marks)
 }
 
-fn mark<'a>(pick: &Pick, evidence: &'a Evidence, robot: Option<&RobotView<'_>>) -> AppleMark<'a> {
-    let b = &pick.pixel_box;
-    let bounds = PixelBox {
-        name: b.name.clone(),
-        x_min: b.x_min,
-        y_min: b.y_min,
-        x_max: b.x_max,
-        y_max: b.y_max,
-        score: b.score,
-    };
-    let mut mark = AppleMark::new(pick.id, bounds);
-    mark.surface_pixels = &evidence.surface;
-    mark.branch_pixels = &evidence.branch;
-    if let Some(apple) = &pick.apple {
-        let center = Point3::from(apple.center);
-        mark.sphere = Sphere::new(center, apple.radius);
-        mark.arrow = pick.foot.map(|foot| (center, Point3::from(foot)));
-        mark.caption = Some(format!("r {:.0} mm", apple.radius * 1000.0));
+fn mark<'a>(answer: &'a AppleAnswer, robot: Option<&RobotView<'_>>) -> AppleMark<'a> {
+    let mut mark = AppleMark::new(answer.id, answer.bounds.clone());
+    mark.surface_pixels = &answer.evidence.surface;
+    mark.branch_pixels = &answer.evidence.branch;
+    if let Some(apple) = &answer.apple {
+        let center = apple.center.point();
+        mark.sphere = Some(apple.sphere());
+        mark.arrow = answer.pick.map(|pick| (center, pick.foot.point()));
+        mark.caption = Some(format!("r {:.0} mm", apple.radius_m * 1000.0));
     }
-    if pick.status != Status::Picked {
+    if !answer.is_picked() {
         // Depth's own word says more than that it refuses.
-        let word = match pick.pixel_box.found {
-            Some(found) if pick.status == Status::Implausible => found.mark.name(),
-            _ => pick.status.name(),
+        let word = match answer.origin {
+            Some(origin) if answer.status == Status::Implausible => origin.mark.name(),
+            _ => answer.status.name(),
         };
         mark.refused = Some(word.replace('_', " "));
     }
     if let Some(robot) = robot {
-        robot.add(pick, &mut mark);
+        robot.add(answer, &mut mark);
     }
     mark
 }
 
 impl RobotView<'_> {
     /// The path's samples, the gripper at the apple, the rank in the order; the reason where there is none.
-    fn add(&self, pick: &Pick, mark: &mut AppleMark<'_>) {
+    fn add(&self, answer: &AppleAnswer, mark: &mut AppleMark<'_>) {
+        let Some(plan) = &answer.plan else { return };
         let camera_from_robot = self.robot_from_camera.transform.inverse().isometry();
-        let plan = &pick.plan;
-        let way = plan.approach.as_ref().and_then(|a| a.way.as_ref());
-        if let Some(way) = way {
-            let places = way.path.samples.iter().map(|s| Point3::from(s.position));
-            mark.path = places.map(|place| camera_from_robot * place).collect();
+        if let Ok(planned) = &plan.approach {
+            let samples = planned.samples.iter();
+            mark.path = samples.map(|s| camera_from_robot * s.position).collect();
+            let pose = camera_from_robot * planned.approach.grasp;
+            let volumes = self.gripper.capsules();
+            let volumes = volumes.iter().filter_map(|(start, end, radius)| {
+                Capsule::new(Segment::new(pose * start, pose * end)?, *radius)
+            });
+            mark.gripper = volumes.collect();
         }
-        if let Some(gripper) = &plan.gripper {
-            let [x, y, z, w] = gripper.tool.quaternion_xyzw;
-            let rotation = UnitQuaternion::new_normalize(Quaternion::new(w, x, y, z));
-            let place = Translation3::from(gripper.tool.position);
-            let pose = camera_from_robot * Isometry3::from_parts(place, rotation);
-            mark.gripper = self
-                .gripper
-                .capsules()
-                .iter()
-                .filter_map(|(start, end, radius)| {
-                    Capsule::new(Segment::new(pose * start, pose * end)?, *radius)
-                })
-                .collect();
-        }
-        let turn = match (&plan.order, &plan.approach) {
-            (Some(order), _) => format!("turn {}", order.rank + 1),
-            (None, Some(approach)) => approach.status.replace('_', " "),
-            _ => return,
+        let turn = match &plan.turn {
+            Some(turn) => format!("turn {}", turn.rank + 1),
+            None => plan.status().replace('_', " "),
         };
         mark.caption = Some(match mark.caption.take() {
             Some(caption) => format!("{caption}, {turn}"),

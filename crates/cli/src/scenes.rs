@@ -4,6 +4,7 @@ use crate::terminal;
 use anyhow::bail;
 use clap::Args;
 use pomona_scenes::{Case, Suite};
+use std::fmt::Write;
 use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
@@ -38,9 +39,7 @@ pub(crate) struct ScenesArguments {
 
 pub(crate) fn run(arguments: &ScenesArguments) -> anyhow::Result<()> {
     let Some(name) = &arguments.suite else {
-        let suites = Suite::ALL.iter();
-        let lines = suites.map(|s| format!("{:<12}{}\n", s.name(), plural(s.len(), "scene")));
-        return terminal::print(&lines.collect::<String>());
+        return terminal::print(&suite_list());
     };
     let suite = Suite::named(name)?;
     let cases: Vec<Case> = suite
@@ -75,6 +74,18 @@ pub(crate) fn run(arguments: &ScenesArguments) -> anyhow::Result<()> {
     ))
 }
 
+/// The suites and their sizes, in columns.
+fn suite_list() -> String {
+    let width = Suite::ALL.iter().map(|s| s.name().len()).max().unwrap_or(0);
+    let mut list = String::new();
+    for suite in Suite::ALL {
+        let scenes = plural(suite.len(), "scene");
+        // Writing to a string cannot fail.
+        let _ = writeln!(list, "{:<width$}  {scenes}", suite.name());
+    }
+    list
+}
+
 /// The case with another seed; its name says so, so that draws can stand side by side.
 fn reseeded(mut case: Case, more: u64) -> Case {
     if more > 0 {
@@ -90,6 +101,15 @@ fn reseeded(mut case: Case, more: u64) -> Case {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn columns_of_the_list_are_apart() {
+        for line in suite_list().lines() {
+            let words: Vec<&str> = line.split_whitespace().collect();
+            assert!(Suite::named(words[0]).is_ok(), "{line}");
+            assert!(words[1].parse::<usize>().is_ok(), "{line}");
+        }
+    }
 
     #[test]
     fn a_seed_shows_in_the_name() {

@@ -1,53 +1,110 @@
-use pomona::{DetectionRecord, Record, Status};
+use pomona::record::PicksRecord;
+use pomona::{FrameAnswer, Status};
+use std::fmt;
 
-/// How many apples were picked and refused, and why, in one line without a line break.
-pub(crate) fn summary(records: &[Record]) -> String {
-    let picks = || records.iter().flat_map(|record| &record.picks);
-    let apples = plural(picks().count(), "apple");
-    let frames = plural(records.len(), "frame");
-    let mut reasons: Vec<(&str, usize)> = Vec::new();
-    for pick in picks().filter(|p| p.status != Status::Picked) {
-        let name = pick.status.name();
-        match reasons.iter_mut().find(|(known, _)| *known == name) {
-            Some((_, count)) => *count += 1,
-            None => reasons.push((name, 1)),
-        }
-    }
-    reasons.sort_by_key(|&(name, count)| (std::cmp::Reverse(count), name));
-    let refused: usize = reasons.iter().map(|(_, count)| count).sum();
-    let picked = picks().count() - refused;
-    let mut text = format!("{apples} in {frames}: {picked} picked, {refused} refused");
-    if !reasons.is_empty() {
-        let reasons = reasons
-            .iter()
-            .map(|(name, count)| format!("{count} {name}"));
-        text = format!("{text} ({})", reasons.collect::<Vec<_>>().join(", "));
-    }
-    text + &detected(records)
+/// How many apples of some frames were picked and refused, and why; written in one line without a line break.
+#[derive(Default)]
+pub(crate) struct Summary {
+    frames: usize,
+    picked: usize,
+    /// The reasons of the refusals, each with its number.
+    refused: Vec<(&'static str, usize)>,
+    /// What detectors found and what depth made of it; `None` where all boxes were given.
+    detected: Option<Detected>,
 }
 
-/// What detectors found and what depth made of it; empty where all boxes were given.
-fn detected(records: &[Record]) -> String {
-    let detections = || {
-        records
-            .iter()
-            .filter_map(|record| record.detection.as_ref())
-    };
-    if detections().next().is_none() {
-        return String::new();
+/// What detectors found in some frames.
+#[derive(Clone, Copy, Default)]
+struct Detected {
+    detections: usize,
+    merged: usize,
+    marked: usize,
+    by_depth: usize,
+}
+
+impl Summary {
+    /// Of the answers for some frames.
+    pub(crate) fn of(answers: &[FrameAnswer]) -> Self {
+        let mut summary = Self::default();
+        for answer in answers {
+            let detected = answer.detection.as_ref().map(|d| Detected {
+                detections: d.detections,
+                merged: d.merged,
+                marked: d.marked,
+                by_depth: d.by_depth,
+            });
+            summary.add(answer.apples.iter().map(|a| a.status), detected);
+        }
+        summary
     }
-    let sum = |count: fn(&DetectionRecord) -> usize| detections().map(count).sum::<usize>();
-    let counts = format!(
-        "; {}, {} merged, {} marked",
-        plural(sum(|d| d.detections), "detection"),
-        sum(|d| d.merged),
-        sum(|d| d.marked)
-    );
-    let by_depth = sum(|d| d.by_depth);
-    if by_depth == 0 {
-        return counts;
+
+    /// Of one frame's record that was read from a file.
+    pub(crate) fn of_record(record: &PicksRecord) -> Self {
+        let mut summary = Self::default();
+        let detected = record.detection.as_ref().map(|d| Detected {
+            detections: d.detections,
+            merged: d.merged,
+            marked: d.marked,
+            by_depth: d.by_depth,
+        });
+        summary.add(record.picks.iter().map(|p| p.status), detected);
+        summary
     }
-    format!("{counts}, {by_depth} more found in depth")
+
+    fn add(&mut self, statuses: impl Iterator<Item = Status>, detected: Option<Detected>) {
+        self.frames += 1;
+        for status in statuses {
+            let name = status.name();
+            if status == Status::Picked {
+                self.picked += 1;
+            } else if let Some((_, count)) = self.refused.iter_mut().find(|(n, _)| *n == name) {
+                *count += 1;
+            } else {
+                self.refused.push((name, 1));
+            }
+        }
+        self.refused
+            .sort_by_key(|&(name, count)| (std::cmp::Reverse(count), name));
+        if let Some(d) = detected {
+            let sum = self.detected.get_or_insert_default();
+            sum.detections += d.detections;
+            sum.merged += d.merged;
+            sum.marked += d.marked;
+            sum.by_depth += d.by_depth;
+        }
+    }
+}
+
+impl fmt::Display for Summary {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let refused: usize = self.refused.iter().map(|(_, count)| count).sum();
+        write!(
+            f,
+            "{} in {}: {} picked, {refused} refused",
+            plural(self.picked + refused, "apple"),
+            plural(self.frames, "frame"),
+            self.picked
+        )?;
+        if !self.refused.is_empty() {
+            let reasons = self
+                .refused
+                .iter()
+                .map(|(name, count)| format!("{count} {name}"));
+            write!(f, " ({})", reasons.collect::<Vec<_>>().join(", "))?;
+        }
+        if let Some(d) = &self.detected {
+            let detections = plural(d.detections, "detection");
+            write!(
+                f,
+                "; {detections}, {} merged, {} marked",
+                d.merged, d.marked
+            )?;
+            if d.by_depth > 0 {
+                write!(f, ", {} more found in depth", d.by_depth)?;
+            }
+        }
+        Ok(())
+    }
 }
 
 /// `count` and its noun.
@@ -62,7 +119,8 @@ pub(crate) fn plural(count: usize, noun: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::table::tests::record;
+    use crate::table::tests::answer;
+    use pomona::DetectionSummary;
 
     #[test]
     fn reasons_are_counted() {
@@ -72,21 +130,28 @@ mod tests {
             Status::NoBranch,
             Status::NoDepth,
         ];
-        assert_eq!(
-            summary(&[record(&statuses)]),
-            "4 apples in 1 frame: 1 picked, 3 refused (2 no_depth, 1 no_branch)"
+        let (all, text) = (
+            answer(&statuses),
+            "4 apples in 1 frame: 1 picked, 3 refused (2 no_depth, 1 no_branch)",
         );
-        let mut found = record(&[Status::Implausible]);
-        found.detection = Some(DetectionRecord {
-            detections: 3,
-            merged: 2,
-            marked: 1,
-            ..DetectionRecord::default()
-        });
         assert_eq!(
-            summary(&[found]),
-            "1 apple in 1 frame: 0 picked, 1 refused (1 implausible); 3 detections, 2 merged, 1 marked"
+            Summary::of_record(&PicksRecord::from(&all)).to_string(),
+            text
         );
-        assert_eq!(summary(&[]), "0 apples in 0 frames: 0 picked, 0 refused");
+        assert_eq!(Summary::of(&[all]).to_string(), text);
+        let mut found = answer(&[Status::Implausible]);
+        let mut detection = DetectionSummary::default();
+        (detection.detections, detection.merged, detection.marked) = (3, 2, 1);
+        found.detection = Some(detection);
+        let text = "1 apple in 1 frame: 0 picked, 1 refused (1 implausible); 3 detections, 2 merged, 1 marked";
+        assert_eq!(
+            Summary::of_record(&PicksRecord::from(&found)).to_string(),
+            text
+        );
+        assert_eq!(Summary::of(&[found]).to_string(), text);
+        assert_eq!(
+            Summary::of(&[]).to_string(),
+            "0 apples in 0 frames: 0 picked, 0 refused"
+        );
     }
 }

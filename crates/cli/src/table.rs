@@ -1,6 +1,6 @@
 use crate::summary::plural;
 use crate::terminal::{FAINT, GOOD, HEADING, REFUSED, Terminal, one_line};
-use pomona::{Pick, Record, RobotRecord, Status};
+use pomona::{AppleAnswer, FrameAnswer, RobotTarget};
 
 /// What stands where nothing is known.
 const UNKNOWN: &str = "-";
@@ -8,10 +8,10 @@ const UNKNOWN: &str = "-";
 struct Column {
     header: &'static str,
     left: bool,
-    cell: fn(&Pick) -> Option<String>,
+    cell: fn(&AppleAnswer) -> Option<String>,
 }
 
-const fn number(header: &'static str, cell: fn(&Pick) -> Option<String>) -> Column {
+const fn number(header: &'static str, cell: fn(&AppleAnswer) -> Option<String>) -> Column {
     Column {
         header,
         left: false,
@@ -19,7 +19,7 @@ const fn number(header: &'static str, cell: fn(&Pick) -> Option<String>) -> Colu
     }
 }
 
-const fn word(header: &'static str, cell: fn(&Pick) -> Option<String>) -> Column {
+const fn word(header: &'static str, cell: fn(&AppleAnswer) -> Option<String>) -> Column {
     Column {
         header,
         left: true,
@@ -31,48 +31,47 @@ const fn word(header: &'static str, cell: fn(&Pick) -> Option<String>) -> Column
 /// upwards; `away`: that out of the image plane, away from the camera.
 const COLUMNS: &[Column] = &[
     number("id", |p| Some(p.id.to_string())),
-    word("name", |p| Some(one_line(&p.pixel_box.name))),
+    word("name", |p| Some(one_line(&p.bounds.name))),
     word("status", |p| Some(p.status.name().to_owned())),
-    number("x mm", |p| Some(mm(p.apple.as_ref()?.center[0]))),
-    number("y mm", |p| Some(mm(p.apple.as_ref()?.center[1]))),
-    number("z mm", |p| Some(mm(p.apple.as_ref()?.center[2]))),
-    number("r mm", |p| Some(mm(p.apple.as_ref()?.radius))),
-    number("points", |p| Some(p.apple.as_ref()?.inliers.to_string())),
-    number("rms mm", |p| Some(mm(p.apple.as_ref()?.rms))),
-    number("branch pts", |p| {
-        Some(p.branch.as_ref()?.inliers.to_string())
-    }),
-    number("rms mm", |p| Some(mm(p.branch.as_ref()?.rms))),
+    number("x mm", |p| Some(mm(p.apple?.center.point().x))),
+    number("y mm", |p| Some(mm(p.apple?.center.point().y))),
+    number("z mm", |p| Some(mm(p.apple?.center.point().z))),
+    number("r mm", |p| Some(mm(p.apple?.radius_m))),
+    number("points", |p| Some(p.apple?.inliers.to_string())),
+    number("rms mm", |p| Some(mm(p.apple?.rms_m))),
+    number("branch pts", |p| Some(p.branch?.inliers.to_string())),
+    number("rms mm", |p| Some(mm(p.branch?.rms_m))),
     number("angle deg", |p| {
-        p.direction.map(|[x, y, _]| degrees((-y).atan2(x)))
+        let d = p.pick?.direction.vector();
+        Some(degrees((-d.y).atan2(d.x)))
     }),
     number("away deg", |p| {
-        p.direction
-            .map(|[.., z]| degrees(z.clamp(-1.0, 1.0).asin()))
+        let d = p.pick?.direction.vector();
+        Some(degrees(d.z.clamp(-1.0, 1.0).asin()))
     }),
 ];
 
 /// What a detector adds.
 const FOUND_COLUMNS: &[Column] = &[
-    number("score", |p| Some(format!("{:.2}", p.pixel_box.score))),
-    word("found by", |p| {
-        Some(p.pixel_box.found?.found_by.name().to_owned())
-    }),
-    word("mark", |p| Some(p.pixel_box.found?.mark.name().to_owned())),
+    number("score", |p| Some(format!("{:.2}", p.bounds.score))),
+    word("found by", |p| Some(p.origin?.found_by.name().to_owned())),
+    word("mark", |p| Some(p.origin?.mark.name().to_owned())),
 ];
 
 /// What a transform to the robot adds.
 const ROBOT_COLUMNS: &[Column] = &[
-    number("robot x mm", |p| Some(mm(p.robot.as_ref()?.center[0]))),
-    number("y mm", |p| Some(mm(p.robot.as_ref()?.center[1]))),
-    number("z mm", |p| Some(mm(p.robot.as_ref()?.center[2]))),
-    number("rx deg", |p| Some(degrees(p.robot.as_ref()?.euler_zyx[0]))),
-    number("ry deg", |p| Some(degrees(p.robot.as_ref()?.euler_zyx[1]))),
+    number("robot x mm", |p| {
+        Some(mm(p.robot.as_ref()?.center.point().x))
+    }),
+    number("y mm", |p| Some(mm(p.robot.as_ref()?.center.point().y))),
+    number("z mm", |p| Some(mm(p.robot.as_ref()?.center.point().z))),
+    number("rx deg", |p| Some(degrees(p.robot.as_ref()?.tool.euler.rx))),
+    number("ry deg", |p| Some(degrees(p.robot.as_ref()?.tool.euler.ry))),
     number("rz deg", |p| p.robot.as_ref().map(yaw)),
 ];
 
 const LAST_COLUMNS: &[Column] = &[number("time ms", |p| {
-    Some(format!("{:.1}", p.timing_ms.total))
+    Some(format!("{:.1}", p.times.total.as_secs_f64() * 1e3))
 })];
 
 fn mm(metres: f64) -> String {
@@ -84,16 +83,16 @@ fn degrees(radians: f64) -> String {
 }
 
 /// The angle about z, with a mark where it is not determined.
-fn yaw(robot: &RobotRecord) -> String {
-    let mark = if robot.singular { "*" } else { "" };
-    degrees(robot.euler_zyx[2]) + mark
+fn yaw(robot: &RobotTarget) -> String {
+    let mark = if robot.tool.singular { "*" } else { "" };
+    degrees(robot.tool.euler.rz) + mark
 }
 
 /// The answers of a frame as lines of text, with a heading.
-pub(crate) fn table(record: &Record, terminal: Terminal) -> String {
-    let has_robot = record.picks.iter().any(|p| p.robot.is_some());
+pub(crate) fn table(answer: &FrameAnswer, terminal: Terminal) -> String {
+    let has_robot = answer.apples.iter().any(|p| p.robot.is_some());
     let robot = if has_robot { ROBOT_COLUMNS } else { &[] };
-    let found = if record.detection.is_some() {
+    let found = if answer.detection.is_some() {
         FOUND_COLUMNS
     } else {
         &[]
@@ -104,11 +103,11 @@ pub(crate) fn table(record: &Record, terminal: Terminal) -> String {
         .chain(robot)
         .chain(LAST_COLUMNS)
         .collect();
-    let rows: Vec<Vec<String>> = record
-        .picks
+    let rows: Vec<Vec<String>> = answer
+        .apples
         .iter()
-        .map(|pick| {
-            let cell = |c: &&Column| (c.cell)(pick).unwrap_or_else(|| UNKNOWN.to_owned());
+        .map(|apple| {
+            let cell = |c: &&Column| (c.cell)(apple).unwrap_or_else(|| UNKNOWN.to_owned());
             columns.iter().map(cell).collect()
         })
         .collect();
@@ -129,33 +128,29 @@ pub(crate) fn table(record: &Record, terminal: Terminal) -> String {
 
     let title = format!(
         "{}: {}, method {}, seed {}",
-        one_line(&record.frame.id),
-        plural(record.picks.len(), "apple"),
-        record.method,
-        record.seed
+        one_line(&answer.id),
+        plural(answer.apples.len(), "apple"),
+        answer.method.name(),
+        answer.seed
     );
     let mut text = terminal.paint(HEADING, &title) + "\n";
     let headers: Vec<String> = columns.iter().map(|c| c.header.to_owned()).collect();
     text += &terminal.paint(FAINT, line(&headers).join("  ").trim_end());
     text.push('\n');
-    for (row, pick) in rows.iter().zip(&record.picks) {
+    for (row, apple) in rows.iter().zip(&answer.apples) {
         let mut cells = line(row);
-        let style = if pick.status == Status::Picked {
-            GOOD
-        } else {
-            REFUSED
-        };
+        let style = if apple.is_picked() { GOOD } else { REFUSED };
         if let Some(at) = columns.iter().position(|c| c.header == "status") {
             cells[at] = terminal.paint(style, &cells[at]);
         }
         text += cells.join("  ").trim_end();
         text.push('\n');
     }
-    if record
-        .picks
+    if answer
+        .apples
         .iter()
         .filter_map(|p| p.robot.as_ref())
-        .any(|r| r.singular)
+        .any(|r| r.tool.singular)
     {
         text += "* the direction lies along the robot's z axis, where the angle about z is not determined\n";
     }
@@ -174,72 +169,44 @@ fn padded(text: &str, width: usize, left: bool) -> String {
 pub(crate) mod tests {
     use super::*;
     use clap::ColorChoice;
+    use nalgebra::{Point3, Vector3};
     use pomona::{
-        AppleRecord, BoxRecord, DetectionRecord, FoundBy, FoundRecord, FrameRecord, Mark,
-        TimingRecord,
+        BoxOrigin, DetectionSummary, FittedApple, FoundBy, Mark, Method, PickDirection, Status,
     };
+    use pomona_cloud::PixelBox;
+    use pomona_transforms::Position;
+    use std::time::Duration;
 
-    /// A record with an apple of each status; a picked one points up.
-    pub(crate) fn record(statuses: &[Status]) -> Record {
-        let pick = |(id, &status): (usize, &Status)| {
-            let picked = status == Status::Picked;
-            let apple = AppleRecord {
-                center: [0.1, -0.02, 0.8],
-                radius: 0.0358,
-                inliers: 321,
-                rms: 0.002,
-                center_covariance: None,
-                radius_sd: None,
-                visible_share: None,
-                agreement: None,
+    /// Answers with an apple of each status; a picked one points up and away.
+    pub(crate) fn answer(statuses: &[Status]) -> FrameAnswer {
+        let apple = |(id, &status): (usize, &Status)| {
+            let bounds = PixelBox {
+                name: format!("n{id}"),
+                x_min: 1.0,
+                y_min: 2.0,
+                x_max: 3.0,
+                y_max: 4.0,
+                score: 1.0,
             };
-            let name = format!("n{id}");
-            Pick {
-                id,
-                pixel_box: BoxRecord {
-                    name,
-                    x_min: 1.0,
-                    y_min: 2.0,
-                    x_max: 3.0,
-                    y_max: 4.0,
-                    score: 1.0,
-                    found: None,
-                },
-                status,
-                apple: picked.then_some(apple),
-                branch: None,
-                foot: None,
-                direction: picked.then_some([0.0, -0.8, 0.6]),
-                direction_sd: None,
-                confidence: None,
-                candidates: Vec::new(),
-                view_from: None,
-                fallback: None,
-                robot: None,
-                plan: pomona::PlanRecord::default(),
-                timing_ms: TimingRecord {
-                    total: 1.25,
-                    ..TimingRecord::default()
-                },
+            let mut answer = AppleAnswer::new(id, bounds, status);
+            answer.times.total = Duration::from_micros(1250);
+            if status == Status::Picked {
+                let center = Point3::new(0.1, -0.02, 0.8);
+                let foot = Position::new(center + Vector3::new(0.0, -0.04, 0.03));
+                let center = Position::new(center);
+                answer.apple = Some(FittedApple::new(center, 0.0358, 321, 0.002));
+                answer.pick = PickDirection::new(&center, foot);
             }
+            answer
         };
-        Record {
-            schema: pomona::SCHEMA.to_owned(),
-            method: "paper".to_owned(),
-            seed: 3,
-            frame: FrameRecord {
-                id: "f".to_owned(),
-                frame_id: "camera".to_owned(),
-            },
-            detection: None,
-            picks: statuses.iter().enumerate().map(pick).collect(),
-        }
+        let apples = statuses.iter().enumerate().map(apple);
+        FrameAnswer::new(Method::Paper, 3, "f", "camera", apples.collect())
     }
 
     #[test]
     fn units_stand_in_the_header_and_columns_in_line() {
         let text = table(
-            &record(&[Status::Picked, Status::NoDepth]),
+            &answer(&[Status::Picked, Status::NoDepth]),
             Terminal::new(ColorChoice::Never),
         );
         let lines: Vec<&str> = text.lines().collect();
@@ -260,16 +227,12 @@ pub(crate) mod tests {
 
     #[test]
     fn marks_stand_in_the_table_where_a_detector_found_the_boxes() {
-        let mut record = record(&[Status::Picked, Status::Implausible]);
+        let mut answer = answer(&[Status::Picked, Status::Implausible]);
         let plain = Terminal::new(ColorChoice::Never);
-        assert!(!table(&record, plain).contains("mark"));
-        record.detection = Some(DetectionRecord::default());
-        record.picks[1].pixel_box.found = Some(FoundRecord {
-            found_by: FoundBy::Color,
-            mark: Mark::TooSmall,
-            merged: None,
-        });
-        let text = table(&record, plain);
+        assert!(!table(&answer, plain).contains("mark"));
+        answer.detection = Some(DetectionSummary::default());
+        answer.apples[1].origin = Some(BoxOrigin::new(FoundBy::Color, Mark::TooSmall));
+        let text = table(&answer, plain);
         assert!(
             text.contains("mark") && text.contains("too_small"),
             "{text}"
@@ -279,8 +242,8 @@ pub(crate) mod tests {
 
     #[test]
     fn colours_only_where_they_are_wanted() {
-        let record = record(&[Status::Picked]);
-        assert!(table(&record, Terminal::new(ColorChoice::Always)).contains("\x1b[32mpicked"));
-        assert!(!table(&record, Terminal::new(ColorChoice::Never)).contains('\x1b'));
+        let answer = answer(&[Status::Picked]);
+        assert!(table(&answer, Terminal::new(ColorChoice::Always)).contains("\x1b[32mpicked"));
+        assert!(!table(&answer, Terminal::new(ColorChoice::Never)).contains('\x1b'));
     }
 }

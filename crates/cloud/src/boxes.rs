@@ -1,3 +1,4 @@
+mod checks;
 mod coco;
 mod coco_dataset;
 mod labelled;
@@ -5,14 +6,16 @@ mod pixel_box;
 mod voc;
 mod yolo;
 
+pub(crate) use checks::validate_all;
 pub use coco_dataset::{
     CocoCategory, CocoDataset, CocoImage, CocoResult, ImageKey, read_coco_results,
 };
 pub use labelled::{LabelKind, LabelledBox};
 pub use pixel_box::{BoxError, PixelBox};
 
-use crate::error::Fault;
-use crate::{CloudError, file};
+use crate::CloudError;
+use checks::{text_of, touch_all};
+use pomona_files::{Malformed, write_atomically};
 use std::path::Path;
 
 /// A form in which boxes are kept in a file.
@@ -35,7 +38,7 @@ pub enum BoxFormat {
 ///
 /// # Errors
 ///
-/// [`CloudError::Read`], [`CloudError::Malformed`], and [`CloudError::Box`] for a box that
+/// [`CloudError::File`], and [`CloudError::Box`] for a box that
 /// is inverted, not finite, or outside the image.
 pub fn read_boxes(
     path: impl AsRef<Path>,
@@ -62,7 +65,7 @@ pub fn read_labels(
     height: usize,
 ) -> Result<Vec<LabelledBox>, CloudError> {
     let path = path.as_ref();
-    let bytes = file::read_bytes(path)?;
+    let bytes = pomona_files::read(path)?;
     let labels = parse(&bytes, width, height).map_err(|fault| fault.at(path))?;
     touch_all(path, &labels, width, height)?;
     Ok(labels)
@@ -74,7 +77,7 @@ pub fn read_labels(
 ///
 /// # Errors
 ///
-/// [`CloudError::Box`] for a box that could not be read back, [`CloudError::Write`].
+/// [`CloudError::Box`] for a box that could not be read back, [`CloudError::File`].
 pub fn write_boxes(
     path: impl AsRef<Path>,
     boxes: &[PixelBox],
@@ -89,76 +92,17 @@ pub fn write_boxes(
         BoxFormat::Coco => coco::format(boxes, width, height),
         BoxFormat::Yolo => yolo::format(boxes, width, height),
     };
-    file::write_atomically(path, text.as_bytes())
+    write_atomically(path, text.as_bytes())?;
+    Ok(())
 }
 
-pub(crate) fn validate_all(
-    path: &Path,
-    boxes: &[PixelBox],
-    width: usize,
-    height: usize,
-) -> Result<(), CloudError> {
-    let checked = boxes.iter().try_for_each(|b| b.validate(width, height));
-    checked.map_err(|source| at_file(path, source))
-}
-
-/// Refuses labels that do not touch their image.
-fn touch_all(
-    path: &Path,
-    labels: &[LabelledBox],
-    width: usize,
-    height: usize,
-) -> Result<(), CloudError> {
-    let checked = labels
-        .iter()
-        .try_for_each(|label| label.bounds.touches(width, height));
-    checked.map_err(|source| at_file(path, source))
-}
-
-fn at_file(path: &Path, source: BoxError) -> CloudError {
-    CloudError::Box {
-        path: path.to_owned(),
-        source,
-    }
-}
-
-fn parse(bytes: &[u8], width: usize, height: usize) -> Result<Vec<LabelledBox>, Fault> {
+fn parse(bytes: &[u8], width: usize, height: usize) -> Result<Vec<LabelledBox>, Malformed> {
     let text = text_of(bytes)?;
     match text.trim_start().chars().next() {
         Some('<') => voc::parse(text, width, height),
         Some('{' | '[') => coco::parse(text, width, height),
         _ => yolo::parse(text, width, height),
     }
-}
-
-/// The text of a box file, without a byte-order mark.
-fn text_of(bytes: &[u8]) -> Result<&str, Fault> {
-    let text = std::str::from_utf8(bytes).map_err(|e| {
-        let place = format!("byte {}", e.valid_up_to());
-        Fault::new(
-            place,
-            "not UTF-8 text",
-            "give boxes as VOC XML, COCO JSON or YOLO text",
-        )
-    })?;
-    Ok(text.trim_start_matches('\u{feff}'))
-}
-
-/// Refuses a box file that was made for an image of another size.
-fn check_size(place: &str, stated: (f64, f64), width: usize, height: usize) -> Result<(), Fault> {
-    // Some tools write zeros where they do not know.
-    if stated == (0.0, 0.0) || stated == (width as f64, height as f64) {
-        return Ok(());
-    }
-    let problem = format!(
-        "boxes of an image of {}x{} but the image is {width}x{height}",
-        stated.0, stated.1
-    );
-    Err(Fault::new(
-        place,
-        problem,
-        "give the boxes of this image, in its pixels",
-    ))
 }
 
 #[cfg(test)]

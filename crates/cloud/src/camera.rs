@@ -1,15 +1,14 @@
+mod error;
+mod file;
 mod json;
 mod lens;
 mod ros;
 
-pub use lens::Lens;
+pub use error::CameraError;
+pub use lens::{Distortion, Lens};
 
-use crate::error::Fault;
-use crate::{CloudError, file};
 use nalgebra::Point3;
 use serde::{Deserialize, Serialize};
-use std::path::Path;
-use thiserror::Error;
 
 /// A pinhole camera with optional lens distortion, in the REP-103 optical frame
 /// (x right, y down, z forward).
@@ -38,74 +37,6 @@ pub struct Camera {
     /// Lens distortion; absent for an undistorted image.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub distortion: Option<Distortion>,
-}
-
-/// Lens distortion, by model name and coefficients in OpenCV's order.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Distortion {
-    /// Name of the model, for example `plumb_bob`.
-    pub model: String,
-    /// Its coefficients.
-    pub coefficients: Vec<f64>,
-}
-
-/// Why a camera cannot be computed with.
-#[derive(Clone, Debug, PartialEq, Error)]
-#[non_exhaustive]
-pub enum CameraError {
-    /// A number that must be finite and positive is not.
-    #[error(
-        "camera field `{field}` is {value} but must be finite and positive; calibrate the camera, or copy its intrinsics again"
-    )]
-    NotPositive {
-        /// Name of the field.
-        field: &'static str,
-        /// Its value.
-        value: f64,
-    },
-    /// A number that must be finite is not.
-    #[error(
-        "camera field `{field}` is {value} but must be finite; calibrate the camera, or copy its intrinsics again"
-    )]
-    NotFinite {
-        /// Name of the field.
-        field: &'static str,
-        /// Its value.
-        value: f64,
-    },
-    /// A distortion model that is not known here.
-    #[error(
-        "distortion model `{model}` is not known; use plumb_bob (or brown_conrady) or rational_polynomial, or undistort the images and leave `distortion` out"
-    )]
-    UnknownModel {
-        /// The model's name as it was given.
-        model: String,
-    },
-    /// A distortion model with the wrong number of coefficients.
-    #[error(
-        "distortion model `{model}` takes {expected} coefficients (k1 k2 p1 p2 k3 …, OpenCV's order) but {found} are given; copy all of them"
-    )]
-    CoefficientCount {
-        /// The model's name.
-        model: String,
-        /// How many it takes.
-        expected: &'static str,
-        /// How many there are.
-        found: usize,
-    },
-    /// A distortion that cannot be inverted over the whole image.
-    #[error(
-        "the distortion of model `{model}` has no inverse at pixel ({u}, {v}); check the order and the values of the coefficients"
-    )]
-    NotInvertible {
-        /// The model's name.
-        model: String,
-        /// Column of the pixel.
-        u: f64,
-        /// Row of the pixel.
-        v: f64,
-    },
 }
 
 impl Camera {
@@ -196,57 +127,6 @@ impl Camera {
             .distort(point.x / point.z, point.y / point.z)?;
         let pixel = (x * self.fx + self.cx, y * self.fy + self.cy);
         (pixel.0.is_finite() && pixel.1.is_finite()).then_some(pixel)
-    }
-
-    /// Reads a camera: the project's JSON, Open3D's intrinsic JSON, or a ROS
-    /// `CameraInfo` in YAML, recognised by extension and content.
-    ///
-    /// ROS and Open3D files do not say how depth is stored; then a depth unit is
-    /// one millimetre, the default of both.
-    ///
-    /// # Errors
-    ///
-    /// [`CloudError::Read`], [`CloudError::Malformed`], [`CloudError::Camera`].
-    pub fn read(path: impl AsRef<Path>) -> Result<Self, CloudError> {
-        let path = path.as_ref();
-        let bytes = file::read_bytes(path)?;
-        let camera = Self::parse(path, &bytes).map_err(|fault| fault.at(path))?;
-        camera.validate().map_err(|source| CloudError::Camera {
-            path: path.to_owned(),
-            source,
-        })?;
-        Ok(camera)
-    }
-
-    /// Writes the project's JSON.
-    ///
-    /// # Errors
-    ///
-    /// [`CloudError::Camera`] for a camera that could not be read back, [`CloudError::Write`].
-    pub fn write(&self, path: impl AsRef<Path>) -> Result<(), CloudError> {
-        let path = path.as_ref();
-        self.validate().map_err(|source| CloudError::Camera {
-            path: path.to_owned(),
-            source,
-        })?;
-        file::write_atomically(path, json::format(self).as_bytes())
-    }
-
-    fn parse(path: &Path, bytes: &[u8]) -> Result<Self, Fault> {
-        let text = std::str::from_utf8(bytes).map_err(|e| {
-            let place = format!("byte {}", e.valid_up_to());
-            Fault::new(
-                place,
-                "not UTF-8 text",
-                "give the camera as JSON or YAML text",
-            )
-        })?;
-        let extension = path.extension().unwrap_or_default().to_ascii_lowercase();
-        if extension == "yaml" || extension == "yml" {
-            ros::parse(text)
-        } else {
-            json::parse(text)
-        }
     }
 }
 

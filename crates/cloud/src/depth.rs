@@ -1,6 +1,3 @@
-use crate::{CloudError, file, image};
-use std::path::Path;
-
 /// A depth image registered to the colour image: z in units of [`crate::Camera::depth_scale`]; 0 is 'no reading'.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DepthImage {
@@ -37,28 +34,5 @@ impl DepthImage {
             .iter()
             .filter(|&&reading| reading != 0)
             .count()
-    }
-
-    /// Reads a 16-bit grey PNG.
-    ///
-    /// # Errors
-    ///
-    /// [`CloudError::Read`]; [`CloudError::Malformed`] for what is no PNG, is cut short, or is
-    /// not 16-bit grey: 8 bits are too few for depth, and such a file is most often a picture of it.
-    pub fn read(path: impl AsRef<Path>) -> Result<Self, CloudError> {
-        let path = path.as_ref();
-        let bytes = file::read_bytes(path)?;
-        image::png::parse_depth(&bytes).map_err(|fault| fault.at(path))
-    }
-
-    /// Writes a 16-bit grey PNG.
-    ///
-    /// # Errors
-    ///
-    /// [`CloudError::Write`]; [`CloudError::Malformed`] where there are not `width * height` readings.
-    pub fn write(&self, path: impl AsRef<Path>) -> Result<(), CloudError> {
-        let path = path.as_ref();
-        let bytes = image::png::format_depth(self).map_err(|fault| fault.at(path))?;
-        file::write_atomically(path, &bytes)
     }
 }

@@ -1,5 +1,7 @@
-use crate::{BoxError, CameraError};
-use std::path::{Path, PathBuf};
+use crate::boxes::BoxError;
+use crate::camera::CameraError;
+use pomona_files::FileError;
+use std::path::PathBuf;
 use thiserror::Error;
 
 /// Why a frame, an image, a cloud or a box file could not be read, written or used.
@@ -8,34 +10,9 @@ use thiserror::Error;
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum CloudError {
-    /// The operating system refused to read a file.
-    #[error("{}: cannot be read: {source}; {}", .path.display(), read_remedy(.source))]
-    Read {
-        /// The file.
-        path: PathBuf,
-        /// What the system said.
-        source: std::io::Error,
-    },
-    /// The operating system refused to write a file.
-    #[error("{}: cannot be written: {source}; check that the folder exists, is writable and has room", .path.display())]
-    Write {
-        /// The file.
-        path: PathBuf,
-        /// What the system said.
-        source: std::io::Error,
-    },
-    /// What a file holds is not what its format asks for.
-    #[error("{}: {place}: {problem}; {remedy}", .path.display())]
-    Malformed {
-        /// The file.
-        path: PathBuf,
-        /// Where in the file: a line, a byte, a field.
-        place: String,
-        /// What is wrong there.
-        problem: String,
-        /// What to do about it.
-        remedy: String,
-    },
+    /// A file could not be read or written, or its content is not what its format asks for.
+    #[error(transparent)]
+    File(#[from] FileError),
     /// A frame's folder lacks one of its files.
     #[error("{}: no {expected} in this folder; a frame is color.png|jpg, depth.png and camera.json", .path.display())]
     MissingFile {
@@ -77,48 +54,4 @@ pub enum CloudError {
         /// What is wrong with it.
         source: BoxError,
     },
-}
-
-fn read_remedy(source: &std::io::Error) -> &'static str {
-    match source.kind() {
-        std::io::ErrorKind::NotFound => "check the path",
-        std::io::ErrorKind::PermissionDenied => "check the file's permissions",
-        _ => "check that it is a plain, readable file",
-    }
-}
-
-/// What a parser of bytes found wrong; it becomes a [`CloudError`] where the file's name is known.
-#[derive(Debug, PartialEq)]
-pub(crate) struct Fault {
-    pub(crate) place: String,
-    pub(crate) problem: String,
-    pub(crate) remedy: String,
-}
-
-impl Fault {
-    pub(crate) fn new(
-        place: impl Into<String>,
-        problem: impl Into<String>,
-        remedy: impl Into<String>,
-    ) -> Self {
-        Self {
-            place: place.into(),
-            problem: problem.into(),
-            remedy: remedy.into(),
-        }
-    }
-
-    pub(crate) fn at(self, path: &Path) -> CloudError {
-        let Self {
-            place,
-            problem,
-            remedy,
-        } = self;
-        CloudError::Malformed {
-            path: path.to_owned(),
-            place,
-            problem,
-            remedy,
-        }
-    }
 }

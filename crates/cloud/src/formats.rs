@@ -1,9 +1,10 @@
+mod claim;
 mod pcd;
 mod ply;
 mod xyz;
 
-use crate::error::Fault;
-use crate::{CloudError, PointCloud, file};
+use crate::{CloudError, PointCloud};
+use pomona_files::{Malformed, write_atomically};
 use std::path::Path;
 
 /// A file format of point clouds.
@@ -61,33 +62,35 @@ impl PointCloud {
     ///
     /// # Errors
     ///
-    /// [`CloudError::Read`]; [`CloudError::Malformed`] for an unknown or damaged file.
+    /// [`CloudError::File`], also for an unknown or damaged file.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, CloudError> {
         let path = path.as_ref();
-        let bytes = file::read_bytes(path)?;
-        parse(&bytes, CloudFormat::from_path(path)).map_err(|fault| fault.at(path))
+        let bytes = pomona_files::read(path)?;
+        let cloud = parse(&bytes, CloudFormat::from_path(path)).map_err(|fault| fault.at(path))?;
+        Ok(cloud)
     }
 
     /// Writes the cloud in the given format. An organised cloud reads back organised.
     ///
     /// # Errors
     ///
-    /// [`CloudError::Write`]; [`CloudError::Malformed`] where the arrays do not have one length.
+    /// [`CloudError::File`], also where the arrays do not have one length.
     pub fn write(&self, path: impl AsRef<Path>, format: CloudFormat) -> Result<(), CloudError> {
         let path = path.as_ref();
         let bytes = format_as(self, format).map_err(|fault| fault.at(path))?;
-        file::write_atomically(path, &bytes)
+        write_atomically(path, &bytes)?;
+        Ok(())
     }
 }
 
-fn parse(bytes: &[u8], by_extension: Option<CloudFormat>) -> Result<PointCloud, Fault> {
+fn parse(bytes: &[u8], by_extension: Option<CloudFormat>) -> Result<PointCloud, Malformed> {
     let starts_with_line = |word: &[u8]| {
         bytes
             .strip_prefix(word)
             .is_some_and(|rest| rest.first().is_some_and(u8::is_ascii_whitespace))
     };
     if bytes.is_empty() {
-        return Err(Fault::new(
+        return Err(Malformed::new(
             "byte 0",
             "an empty file",
             "write the cloud again",
@@ -104,12 +107,12 @@ fn parse(bytes: &[u8], by_extension: Option<CloudFormat>) -> Result<PointCloud, 
         Some(CloudFormat::PcdAscii | CloudFormat::PcdBinary | CloudFormat::PcdBinaryCompressed) => {
             pcd::parse(bytes)
         }
-        Some(_) => Err(Fault::new(
+        Some(_) => Err(Malformed::new(
             "line 1",
             "not `ply`",
             "give a PLY file, or name it after its format",
         )),
-        None => Err(Fault::new(
+        None => Err(Malformed::new(
             "byte 0",
             "neither a PCD nor a PLY file",
             "give PCD or PLY, or `x y z` lines in a file named .xyz, .txt, .asc or .csv",
@@ -117,9 +120,9 @@ fn parse(bytes: &[u8], by_extension: Option<CloudFormat>) -> Result<PointCloud, 
     }
 }
 
-fn format_as(cloud: &PointCloud, format: CloudFormat) -> Result<Vec<u8>, Fault> {
+fn format_as(cloud: &PointCloud, format: CloudFormat) -> Result<Vec<u8>, Malformed> {
     if let Some(problem) = cloud.inconsistency() {
-        return Err(Fault::new(
+        return Err(Malformed::new(
             "cloud to write",
             problem,
             "give arrays of one length",
@@ -138,24 +141,6 @@ fn format_as(cloud: &PointCloud, format: CloudFormat) -> Result<Vec<u8>, Fault> 
         }
         CloudFormat::Xyz => Ok(xyz::format(cloud)),
     }
-}
-
-/// Refuses a header whose points need more bytes than the file has left, before any
-/// memory is taken for them.
-fn check_claim(points: u64, bytes_each: u64, available: usize) -> Result<(), Fault> {
-    let needed = points.checked_mul(bytes_each);
-    if needed.is_some_and(|needed| needed <= available as u64) {
-        return Ok(());
-    }
-    let needed = needed.map_or_else(|| "more than 2^64".to_owned(), |n| n.to_string());
-    let problem = format!(
-        "the header claims {points} points, {needed} bytes at least, but {available} follow it"
-    );
-    Err(Fault::new(
-        "header",
-        problem,
-        "write the cloud again; this file is cut short or damaged",
-    ))
 }
 
 #[cfg(test)]

@@ -1,13 +1,10 @@
-mod tum;
-
-pub use tum::{TumEntry, read_tum};
+mod points;
 
 use crate::boxes::validate_all;
-use crate::file::temporary_beside;
 use crate::{
-    BoxFormat, Camera, CloudError, ColorImage, DepthImage, DepthPoints, PixelBox, PixelWindow,
-    PointCloud, read_boxes, write_boxes,
+    BoxFormat, Camera, CloudError, ColorImage, DepthImage, PixelBox, read_boxes, write_boxes,
 };
+use pomona_files::{FileError, Malformed, temporary_beside};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -51,10 +48,7 @@ impl Frame {
     pub fn read(dir: impl AsRef<Path>) -> Result<Self, CloudError> {
         let dir = dir.as_ref();
         if let Err(source) = fs::read_dir(dir) {
-            return Err(CloudError::Read {
-                path: dir.to_owned(),
-                source,
-            });
+            return Err(FileError::read(dir, source).into());
         }
         let color = ColorImage::read(required(dir, COLOR, "color.png or color.jpg")?)?;
         let depth = DepthImage::read(required(dir, &["depth.png"], "depth.png")?)?;
@@ -81,7 +75,7 @@ impl Frame {
     ///
     /// # Errors
     ///
-    /// As [`Frame::validate`]; [`CloudError::Write`], also where the folder holds
+    /// As [`Frame::validate`]; [`CloudError::File`], also where the folder holds
     /// a file that would then be read as a part of this frame.
     pub fn write(&self, dir: impl AsRef<Path>) -> Result<(), CloudError> {
         let dir = dir.as_ref();
@@ -99,25 +93,16 @@ impl Frame {
             {
                 let message = "it belongs to another frame; choose a new folder or remove it";
                 let source = std::io::Error::new(std::io::ErrorKind::AlreadyExists, message);
-                return Err(CloudError::Write {
-                    path: dir.join(name),
-                    source,
-                });
+                return Err(FileError::write(dir.join(name), source).into());
             }
             return self.write_files(dir);
         }
         let temporary = temporary_beside(dir);
         let renamed = fs::create_dir(&temporary)
-            .map_err(|source| CloudError::Write {
-                path: dir.to_owned(),
-                source,
-            })
+            .map_err(|source| FileError::write(dir, source).into())
             .and_then(|()| self.write_files(&temporary))
             .and_then(|()| {
-                fs::rename(&temporary, dir).map_err(|source| CloudError::Write {
-                    path: dir.to_owned(),
-                    source,
-                })
+                fs::rename(&temporary, dir).map_err(|source| FileError::write(dir, source).into())
             });
         if renamed.is_err() {
             // The first error is the one to report.
@@ -148,13 +133,13 @@ impl Frame {
     ///
     /// # Errors
     ///
-    /// [`CloudError::SizeMismatch`], [`CloudError::Malformed`], [`CloudError::Camera`],
+    /// [`CloudError::SizeMismatch`], [`CloudError::File`], [`CloudError::Camera`],
     /// [`CloudError::Box`]; the path in them is the frame's id.
     pub fn validate(&self) -> Result<(), CloudError> {
         self.validate_as(Path::new(&self.id))
     }
 
-    fn validate_as(&self, path: &Path) -> Result<(), CloudError> {
+    pub(crate) fn validate_as(&self, path: &Path) -> Result<(), CloudError> {
         let (color, depth) = (
             (self.color.width, self.color.height),
             (self.depth.width, self.depth.height),
@@ -184,12 +169,9 @@ impl Frame {
             ("depth image", self.depth.readings.len()),
         ] {
             if color.0.checked_mul(color.1) != Some(count) {
-                return Err(CloudError::Malformed {
-                    path: path.to_owned(),
-                    place: place.to_owned(),
-                    problem: format!("{count} pixels for a size of {}x{}", color.0, color.1),
-                    remedy: "give width * height pixels".to_owned(),
-                });
+                let problem = format!("{count} pixels for a size of {}x{}", color.0, color.1);
+                let fault = Malformed::new(place, problem, "give width * height pixels");
+                return Err(fault.at(path).into());
             }
         }
         self.camera
@@ -204,34 +186,6 @@ impl Frame {
             color.0,
             color.1,
         )
-    }
-
-    /// The points of a window of the depth image.
-    ///
-    /// A caller with many windows keeps one [`DepthPoints`] and fills it anew instead.
-    ///
-    /// # Errors
-    ///
-    /// As [`DepthPoints::fill`].
-    pub fn window(&self, window: PixelWindow) -> Result<DepthPoints, CloudError> {
-        let mut points = DepthPoints::new();
-        points.fill(&self.depth, &self.camera, window)?;
-        Ok(points)
-    }
-
-    /// The coloured points inside a box, as an unorganised cloud of pixels with a reading.
-    ///
-    /// # Errors
-    ///
-    /// [`CloudError::Box`] where the box holds no pixel; otherwise as [`DepthPoints::fill`].
-    pub fn crop(&self, pixel_box: &PixelBox) -> Result<PointCloud, CloudError> {
-        let window = pixel_box
-            .window(self.depth.width, self.depth.height)
-            .map_err(|source| CloudError::Box {
-                path: PathBuf::from(&self.id),
-                source,
-            })?;
-        Ok(PointCloud::from_points(&self.window(window)?, &self.color))
     }
 }
 
@@ -250,7 +204,7 @@ fn required(dir: &Path, names: &[&str], expected: &'static str) -> Result<PathBu
 }
 
 /// The folder's own name, also where the path is `.` or ends in `..`.
-fn folder_name(dir: &Path) -> String {
+pub(crate) fn folder_name(dir: &Path) -> String {
     let name = dir.file_name().map(ToOwned::to_owned);
     let name = name.or_else(|| dir.canonicalize().ok()?.file_name().map(ToOwned::to_owned));
     name.unwrap_or_default().to_string_lossy().into_owned()

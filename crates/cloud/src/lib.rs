@@ -97,11 +97,11 @@ mod cloud;
 mod color;
 mod depth;
 mod error;
-mod file;
 mod formats;
 mod frame;
 mod image;
 mod points;
+mod tum;
 mod window;
 
 pub use boxes::{
@@ -114,6 +114,8 @@ pub use color::ColorImage;
 pub use depth::DepthImage;
 pub use error::CloudError;
 pub use formats::CloudFormat;
-pub use frame::{Frame, TumEntry, read_tum};
+pub use frame::Frame;
 pub use points::DepthPoints;
+pub use pomona_files::FileError;
+pub use tum::{TumEntry, read_tum};
 pub use window::PixelWindow;

@@ -1,6 +1,7 @@
 use crate::{Camera, CloudError, DepthImage, PixelWindow};
 use nalgebra::Point3;
-use std::path::PathBuf;
+use pomona_files::Malformed;
+use std::path::{Path, PathBuf};
 
 /// The points of a window of a depth image: only pixels with a reading, row by row.
 ///
@@ -84,7 +85,7 @@ impl DepthPoints {
     /// # Errors
     ///
     /// [`CloudError::Camera`] for a camera that cannot be computed with, and
-    /// [`CloudError::Malformed`] for an image without `width * height` readings; then no points remain.
+    /// [`CloudError::File`] for an image without `width * height` readings; then no points remain.
     /// The path in them is the camera's `frame_id`.
     pub fn fill(
         &mut self,
@@ -101,17 +102,15 @@ impl DepthPoints {
         if depth.width.checked_mul(depth.height) != Some(depth.readings.len())
             || u32::try_from(depth.readings.len()).is_err()
         {
-            return Err(CloudError::Malformed {
-                path: PathBuf::from(&camera.frame_id),
-                place: "depth image".to_owned(),
-                problem: format!(
-                    "{} readings for a size of {}x{}",
-                    depth.readings.len(),
-                    depth.width,
-                    depth.height
-                ),
-                remedy: "give width * height readings, fewer than 2^32".to_owned(),
-            });
+            let problem = format!(
+                "{} readings for a size of {}x{}",
+                depth.readings.len(),
+                depth.width,
+                depth.height
+            );
+            let remedy = "give width * height readings, fewer than 2^32";
+            let fault = Malformed::new("depth image", problem, remedy);
+            return Err(fault.at(Path::new(&camera.frame_id)).into());
         }
         let window = window.intersection(PixelWindow::full(depth.width, depth.height));
         let separable = lens == crate::Lens::Pinhole;

@@ -4,13 +4,16 @@
 //! one thread, so that what else the machine does meets all alike. The network `yolov3-tiny` of noise is always
 //! among them. A frame is looked at as a whole detector does, tiled on two threads, by the first model that is there.
 
-#[path = "../tests/support/onnx.rs"]
+#[path = "../../network/tests/network/onnx.rs"]
+#[expect(
+    dead_code,
+    reason = "the tests of pomona-network write more kinds of networks"
+)]
 mod onnx;
 
 use pomona_cloud::ColorImage;
-use pomona_detect::{
-    Detector, DetectorOptions, ModelSource, Network, RuntimeChoice, Tensor, open_network,
-};
+use pomona_detect::{Detector, DetectorOptions};
+use pomona_network::{ModelSource, Network, Port, RuntimeChoice, Tensor, open_network};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -215,7 +218,7 @@ fn frames(
 /// Inputs as of an image, 0 to 1.
 fn noise(network: &dyn Network) -> Vec<Tensor> {
     let mut noise = onnx::Noise(1);
-    let fill = |port: &pomona_detect::Port| {
+    let fill = |port: &Port| {
         let open = |index: usize| if index == 0 { 1 } else { SIDE };
         let axes = port.shape.iter().enumerate();
         let shape: Vec<usize> = axes

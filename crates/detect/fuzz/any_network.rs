@@ -4,9 +4,11 @@
 
 use pomona_cloud::ColorImage;
 use pomona_detect::{
-    ChannelOrder, ClassChoice, Coordinates, DetectError, Detection, Detector, DetectorOptions,
-    Element, Family, ModelDescription, Network, OnnxDetector, Padding, Port, RuntimeReport, Tensor,
-    TilingChoice,
+    ClassChoice, Coordinates, Detection, Detector, DetectorOptions, Family, ModelDescription,
+    OnnxDetector, TilingChoice,
+};
+use pomona_network::{
+    ChannelOrder, Element, Network, NetworkError, Padding, Port, RuntimeReport, Tensor,
 };
 
 /// Makes a detector of these bytes, if they make one, and has it look at an image; whatever it then says must be a
@@ -18,7 +20,7 @@ pub(crate) fn detect_with(data: &[u8]) -> Option<Vec<Detection>> {
     let options = DetectorOptions {
         class: class(&mut bytes),
         threshold: bytes.option(Bytes::share),
-        overlap: bytes.option(Bytes::share),
+        nms_iou: bytes.option(Bytes::share),
         tiling: match bytes.below(4) {
             0 => TilingChoice::Whole,
             1 => TilingChoice::Grid {
@@ -240,17 +242,12 @@ impl Network for AnyNetwork {
         &self.outputs
     }
 
-    fn run(&self, _: &[Tensor]) -> Result<Vec<Tensor>, DetectError> {
+    fn run(&self, _: &[Tensor]) -> Result<Vec<Tensor>, NetworkError> {
         Ok(self.answers.clone())
     }
 
     fn report(&self) -> RuntimeReport {
-        RuntimeReport {
-            name: "any".to_owned(),
-            version: String::new(),
-            library: None,
-            fallback_reason: None,
-        }
+        RuntimeReport::new("any", "")
     }
 }
 
@@ -292,16 +289,16 @@ fn description(bytes: &mut Bytes<'_>) -> ModelDescription {
                 .collect()
         }),
         channels: bytes.option(|_| ChannelOrder::Bgr),
-        white: rare(bytes).then(|| bytes.number()),
+        scale: rare(bytes).then(|| bytes.number()),
         mean: rare(bytes).then(|| [0; 3].map(|_| bytes.number())),
-        deviation: rare(bytes).then(|| [0; 3].map(|_| bytes.number())),
+        std: rare(bytes).then(|| [0; 3].map(|_| bytes.number())),
         padding: bytes
             .option(|bytes| [Padding::Center, Padding::TopLeft, Padding::Stretch][bytes.below(3)]),
         fill: bytes.option(Bytes::byte),
         coordinates: bytes
             .option(|bytes| [Coordinates::Pixels, Coordinates::Normalized][bytes.below(2)]),
         threshold: rare(bytes).then(|| bytes.share()),
-        overlap: rare(bytes).then(|| bytes.share()),
+        nms_iou: rare(bytes).then(|| bytes.share()),
         tile: bytes.option(|bytes| 30 + bytes.below(200)),
         tile_overlap: rare(bytes).then(|| bytes.below(120)),
         whole_pass: bytes.option(|bytes| bytes.below(2) == 0),

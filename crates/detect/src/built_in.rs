@@ -1,4 +1,5 @@
-use crate::{DetectError, ModelDescription, ModelSource};
+use crate::{description::ModelDescription, error::DetectError};
+use pomona_network::ModelSource;
 
 /// What the model that is part of the program is called.
 const NAME: &str = "built-in apple model";
@@ -7,7 +8,7 @@ const NAME: &str = "built-in apple model";
 ///
 /// # Errors
 ///
-/// [`DetectError::Model`] for a description that cannot be read; a test holds it to be fine.
+/// [`DetectError`] for a description that cannot be read; a test holds it to be fine.
 pub(crate) fn model() -> Result<(ModelSource, String, ModelDescription), DetectError> {
     let source = ModelSource::BuiltIn {
         name: NAME,
@@ -20,7 +21,7 @@ pub(crate) fn model() -> Result<(ModelSource, String, ModelDescription), DetectE
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Family;
+    use crate::family::Family;
 
     #[test]
     fn it_is_described() {

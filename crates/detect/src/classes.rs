@@ -1,4 +1,17 @@
-use crate::{ClassChoice, fault::Fault, names::nearest};
+use crate::names::nearest;
+use pomona_network::ModelFault;
+use serde::Deserialize;
+
+/// Which of the model's classes is an apple.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[serde(untagged, expecting = "expected a class's name or number")]
+pub enum ClassChoice {
+    /// By its number.
+    Number(usize),
+    /// By its name in the description beside the model or in the model's own metadata, or among COCO's where a
+    /// model of 80 classes has no names.
+    Name(String),
+}
 
 /// What the classes are called where 80 of them have no names: those of COCO, on which public models are trained, in
 /// its order (Lin et al., Microsoft COCO, 2014).
@@ -96,16 +109,16 @@ pub(crate) fn choose(
     choice: Option<&ClassChoice>,
     names: Option<&[String]>,
     count: Option<usize>,
-) -> Result<usize, Fault> {
+) -> Result<usize, ModelFault> {
     let names: Vec<&str> = match (names, count) {
         (Some(names), _) => names.iter().map(String::as_str).collect(),
-        (None, Some(80)) => COCO.to_vec(),
+        (None, Some(count)) if count == COCO.len() => COCO.to_vec(),
         (None, _) => Vec::new(),
     };
     if let (Some(count), false) = (count, names.is_empty())
         && names.len() != count
     {
-        return Err(Fault::new(
+        return Err(ModelFault::new(
             "`classes`",
             format!("{} names for a model of {count} classes", names.len()),
             "name every class of the model, in its order",
@@ -129,13 +142,13 @@ pub(crate) fn choose(
         Some(ClassChoice::Name(name)) => find(name).ok_or_else(|| {
             let place = format!("class `{name}`");
             if names.is_empty() {
-                Fault::new(
+                ModelFault::new(
                     place,
                     "the model's classes have no names here",
                     "give the class's number, or list `classes` in the description beside the model",
                 )
             } else {
-                Fault::new(
+                ModelFault::new(
                     place,
                     format!("none of the {} classes has this name", names.len()),
                     format!("the nearest are {}", nearest(name, &names)),
@@ -167,9 +180,9 @@ pub(crate) fn from_metadata(metadata: &[(String, String)]) -> Option<Vec<String>
 }
 
 /// Whether a model of `count` classes has one of this number; passes where the count is not known.
-pub(crate) fn check(number: usize, count: Option<usize>) -> Result<(), Fault> {
+pub(crate) fn check(number: usize, count: Option<usize>) -> Result<(), ModelFault> {
     match count {
-        Some(count) if number >= count => Err(Fault::new(
+        Some(count) if number >= count => Err(ModelFault::new(
             format!("class {number}"),
             format!("the model has {count} classes"),
             format!("give a number from 0 to {}", count.saturating_sub(1)),

@@ -1,6 +1,13 @@
+mod values;
+
 use crate::{
-    ChannelOrder, ClassChoice, DetectError, Family, Padding, Preparation, fault::Fault,
+    classes::ClassChoice,
+    error::DetectError,
+    family::{Coordinates, Family},
     names::nearest,
+};
+use pomona_network::{
+    ChannelOrder, ModelFault, NetworkError, Padding, Preparation, TilingChoice, TilingOptions,
 };
 use serde::Deserialize;
 use std::{
@@ -48,24 +55,22 @@ pub struct ModelDescription {
     pub anchors: Option<Vec<[f32; 2]>>,
     /// Order of the colour channels.
     pub channels: Option<ChannelOrder>,
-    /// What a white pixel becomes, before mean and deviation: 1 or 255.
-    pub white: Option<f32>,
-    /// Subtracted from each channel, in the network's order.
+    /// What each value, 0 to 255, is multiplied by before mean and std: 1/255 or 1.
+    pub scale: Option<f32>,
+    /// Subtracted from each scaled channel, in the network's order.
     pub mean: Option<[f32; 3]>,
     /// Divides each channel, in the network's order.
-    #[serde(alias = "std")]
-    pub deviation: Option<[f32; 3]>,
+    pub std: Option<[f32; 3]>,
     /// Where the image lies in the input.
     pub padding: Option<Padding>,
     /// Grey value, 0 to 255, of what the image does not cover.
     pub fill: Option<u8>,
-    /// What decoded boxes are measured in; told from their size where absent.
+    /// What decoded boxes are measured in; recognised from their centres where absent.
     pub coordinates: Option<Coordinates>,
-    /// Lowest score that counts, 0 to 1.
+    /// Lowest score of a box, 0 to 1.
     pub threshold: Option<f64>,
-    /// `IoU` above which two boxes are one thing, 0 to 1.
-    #[serde(alias = "nms_iou")]
-    pub overlap: Option<f64>,
+    /// `IoU` above which of two boxes only the better one is kept, 0 to 1.
+    pub nms_iou: Option<f64>,
     /// Longest side in pixels of the image of a tile.
     pub tile: Option<usize>,
     /// Pixels of the image that neighbouring tiles share.
@@ -73,45 +78,6 @@ pub struct ModelDescription {
     /// Whether a tiled image is also looked at as a whole.
     pub whole_pass: Option<bool>,
 }
-
-/// What decoded boxes are measured in.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Coordinates {
-    /// Pixels of the input.
-    Pixels,
-    /// Shares of the input's width and height.
-    Normalized,
-}
-
-/// The keys, to name the nearest where one is unknown.
-const KEYS: [&str; 22] = [
-    "name",
-    "licence",
-    "source",
-    "notes",
-    "family",
-    "classes",
-    "class",
-    "input_size",
-    "strides",
-    "anchors",
-    "channels",
-    "white",
-    "mean",
-    "deviation",
-    "padding",
-    "fill",
-    "coordinates",
-    "threshold",
-    "overlap",
-    "tile",
-    "tile_overlap",
-    "whole_pass",
-];
-
-/// Largest side of an input: beyond it, a slip of the pen would ask for gigabytes.
-pub(crate) const LARGEST_INPUT_SIDE: usize = 8192;
 
 impl ModelDescription {
     /// Where a model's description lies: `DIR/MODEL.toml` for `DIR/MODEL.onnx`.
@@ -123,13 +89,13 @@ impl ModelDescription {
     ///
     /// # Errors
     ///
-    /// [`DetectError::Read`], [`DetectError::Model`].
+    /// [`NetworkError::Read`], [`NetworkError::Model`].
     pub fn beside(model: &Path) -> Result<Self, DetectError> {
         let path = Self::path_beside(model);
         match fs::read_to_string(&path) {
             Ok(text) => Self::parse(&text, &path.display().to_string()),
             Err(source) if source.kind() == io::ErrorKind::NotFound => Ok(Self::default()),
-            Err(source) => Err(DetectError::Read { path, source }),
+            Err(source) => Err(NetworkError::Read { path, source }.into()),
         }
     }
 
@@ -137,20 +103,21 @@ impl ModelDescription {
     ///
     /// # Errors
     ///
-    /// [`DetectError::Model`] for what is no TOML, for a key that does not exist, and for a value that is
+    /// [`NetworkError::Model`] for what is not TOML, for a key that does not exist, and for a value that is
     /// none of those the key can have.
     pub fn parse(text: &str, origin: &str) -> Result<Self, DetectError> {
         let description: Self = toml::from_str(text).map_err(|error| {
             let (line, key) = line_and_key(text, error.span().map_or(0, |span| span.start));
             let remedy = match key {
                 Some(key) if error.message().starts_with("unknown field") => {
-                    format!("the nearest keys are {}", nearest(key, &KEYS))
+                    let known = known_keys(error.message());
+                    format!("the nearest keys are {}", nearest(key, &known))
                 }
                 _ => "docs/detection.md lists the keys and their values".to_owned(),
             };
             let key = key.map_or_else(String::new, |key| format!(", `{key}`"));
             let problem = error.message().trim().replace('\n', " ");
-            Fault::new(format!("line {line}{key}"), problem, remedy).at(origin)
+            ModelFault::new(format!("line {line}{key}"), problem, remedy).at(origin)
         })?;
         description.check().map_err(|fault| fault.at(origin))?;
         Ok(description)
@@ -161,105 +128,48 @@ impl ModelDescription {
         let usual = family.preparation();
         Preparation {
             channels: self.channels.unwrap_or(usual.channels),
-            white: self.white.unwrap_or(usual.white),
+            scale: self.scale.unwrap_or(usual.scale),
             mean: self.mean.unwrap_or(usual.mean),
-            deviation: self.deviation.unwrap_or(usual.deviation),
+            std: self.std.unwrap_or(usual.std),
             padding: self.padding.unwrap_or(usual.padding),
             fill: self.fill.unwrap_or(usual.fill),
         }
     }
 
-    pub(crate) fn check(&self) -> Result<(), Fault> {
-        let refuse = |bad: bool, key: &str, problem: &str, remedy: &str| {
-            let fault = || Fault::new(format!("`{key}`"), problem, remedy);
-            if bad { Err(fault()) } else { Ok(()) }
-        };
-        let positive = |x: f32| x.is_finite() && x > 0.0;
-        let share = |x: f64| (0.0..=1.0).contains(&x);
-        let sides = 1..=LARGEST_INPUT_SIDE;
-        if let Some(names) = &self.classes {
-            refuse(
-                names.is_empty(),
-                "classes",
-                "the list is empty",
-                "name each class",
-            )?;
-            let twice = (1..names.len()).find(|&k| names[..k].contains(&names[k]));
-            let problem =
-                twice.map_or_else(String::new, |k| format!("`{}` stands twice", names[k]));
-            refuse(
-                twice.is_some(),
-                "classes",
-                &problem,
-                "give each class its own name",
-            )?;
-        }
-        if let Some(size) = self.input_size {
-            let bad = !size.iter().all(|side| sides.contains(side));
-            let remedy = "give width and height from 1 to 8192 pixels";
-            refuse(bad, "input_size", "not a size of an image", remedy)?;
-        }
-        if let Some(strides) = &self.strides {
-            let rising = strides.windows(2).all(|pair| pair[0] < pair[1]);
-            let inside = strides.iter().all(|stride| sides.contains(stride));
-            let remedy = "give pixels per cell, from the finest grid, such as [8, 16, 32]";
-            refuse(
-                strides.is_empty() || !rising || !inside,
-                "strides",
-                "not rising",
-                remedy,
-            )?;
-        }
-        if let Some(anchors) = &self.anchors {
-            let bad = anchors.is_empty() || !anchors.iter().flatten().all(|&side| positive(side));
-            let remedy = "give [width, height] in pixels of each anchor";
-            refuse(bad, "anchors", "none, or one without area", remedy)?;
-        }
-        let white = self.white.is_none_or(positive);
-        refuse(!white, "white", "not above 0", "give 1 or 255")?;
-        let mean = self
-            .mean
-            .is_none_or(|mean| mean.iter().all(|x| x.is_finite()));
-        refuse(!mean, "mean", "not finite", "give three numbers")?;
-        let deviation = self.deviation.is_none_or(|d| d.into_iter().all(positive));
-        refuse(
-            !deviation,
-            "deviation",
-            "not above 0",
-            "give three numbers above 0",
-        )?;
-        let threshold = self.threshold.is_none_or(share);
-        refuse(
-            !threshold,
-            "threshold",
-            "outside 0 to 1",
-            "give a score from 0 to 1",
-        )?;
-        let overlap = self.overlap.is_none_or(share);
-        refuse(
-            !overlap,
-            "overlap",
-            "outside 0 to 1",
-            "give an IoU from 0 to 1",
-        )?;
-        let tile = self.tile.is_none_or(|tile| tile >= 32);
-        refuse(
-            !tile,
-            "tile",
-            "below 32 pixels",
-            "give the longest side of a tile in pixels",
-        )?;
-        let fits = match (self.tile, self.tile_overlap) {
-            (Some(tile), Some(overlap)) => overlap <= tile / 2,
-            _ => true,
-        };
-        refuse(
-            !fits,
-            "tile_overlap",
-            "more than half a tile",
-            "give at most half of `tile`",
-        )
+    /// How images are tiled for the model, by this choice.
+    pub fn tiling(&self, choice: TilingChoice) -> TilingOptions {
+        let mut options = TilingOptions::default();
+        options.choice = choice;
+        options.tile = self.tile;
+        options.overlap = self.tile_overlap.unwrap_or(options.overlap);
+        options.whole_pass = self.whole_pass.unwrap_or(options.whole_pass);
+        options
     }
+
+    /// Refuses values that make no sense for any model.
+    pub(crate) fn check(&self) -> Result<(), ModelFault> {
+        let refused = [
+            self.classes.as_deref().and_then(values::class_names),
+            self.input_size.and_then(values::input_size),
+            self.strides.as_deref().and_then(values::strides),
+            self.anchors.as_deref().and_then(values::anchors),
+            self.scale.and_then(values::scale),
+            self.mean.and_then(values::mean),
+            self.std.and_then(values::std),
+            self.threshold.and_then(values::threshold),
+            self.nms_iou.and_then(values::nms_iou),
+            self.tile.and_then(values::tile),
+            self.tile
+                .zip(self.tile_overlap)
+                .and_then(|(tile, overlap)| values::tile_overlap(tile, overlap)),
+        ];
+        refused.into_iter().flatten().next().map_or(Ok(()), Err)
+    }
+}
+
+/// The keys that there are, from the message about one that there is not: it quotes that one, and then all of them.
+fn known_keys(message: &str) -> Vec<&str> {
+    message.split('`').skip(3).step_by(2).collect()
 }
 
 /// Number of the line that holds this byte, from 1, and the key that stands before its equals sign.
@@ -285,9 +195,9 @@ mod tests {
         let text = "
             name = 'apples'\nlicence = 'MIT'\nsource = 'here'\nnotes = 'small'\nfamily = 'yolov7'
             classes = ['apple', 'leaf']\nclass = 'apple'\ninput_size = [416, 320]\nstrides = [16, 32]
-            anchors = [[10, 14], [23.5, 27]]\nchannels = 'bgr'\nwhite = 255\nmean = [1, 2, 3.5]
-            deviation = [1, 1, 2]\npadding = 'top-left'\nfill = 0\ncoordinates = 'normalized'
-            threshold = 0.3\noverlap = 0.5\ntile = 400\ntile_overlap = 90\nwhole_pass = false";
+            anchors = [[10, 14], [23.5, 27]]\nchannels = 'bgr'\nscale = 1\nmean = [1, 2, 3.5]
+            std = [1, 1, 2]\npadding = 'top-left'\nfill = 0\ncoordinates = 'normalized'
+            threshold = 0.3\nnms_iou = 0.5\ntile = 400\ntile_overlap = 90\nwhole_pass = false";
         let description = ModelDescription::parse(text, "m.toml").unwrap();
         assert_eq!(description.family, Some(Family::YoloV5));
         assert_eq!(
@@ -298,18 +208,18 @@ mod tests {
         let preparation = description.preparation(Family::YoloV5);
         assert_eq!(preparation.channels, ChannelOrder::Bgr);
         assert_eq!(preparation.padding, Padding::TopLeft);
-        assert_eq!((preparation.white, preparation.fill), (255.0, 0));
+        assert_eq!((preparation.scale, preparation.fill), (1.0, 0));
         assert_eq!(description.whole_pass, Some(false));
-        // The list of keys is that of the fields.
-        for key in KEYS {
-            assert!(text.contains(&format!("{key} =")), "{key}");
-        }
+        // Those are all keys, but for the other spelling of `licence`.
         let unknown = message("zzz = 1");
-        for key in KEYS {
-            assert!(unknown.contains(&format!("`{key}`")), "{key}: {unknown}");
+        let known = known_keys(&unknown);
+        let named = text.lines().filter_map(|line| line.split_once(" = "));
+        let named: Vec<&str> = named.map(|(key, _)| key.trim()).collect();
+        for key in known.iter().filter(|key| **key != "license") {
+            assert!(named.contains(key), "{key}");
         }
-        let number =
-            ModelDescription::parse("class = 47\nlicense = 'x'\nstd = [1, 1, 1]", "m.toml");
+        assert!(known.len() > named.len(), "{unknown}");
+        let number = ModelDescription::parse("class = 47\nlicense = 'x'", "m.toml");
         assert_eq!(number.unwrap().class, Some(ClassChoice::Number(47)));
     }
 
@@ -346,13 +256,13 @@ mod tests {
             ("anchors = []", "anchors"),
             ("anchors = [[1, 0]]", "anchors"),
             ("anchors = [[nan, 1]]", "anchors"),
-            ("white = 0", "white"),
-            ("white = inf", "white"),
+            ("scale = 0", "scale"),
+            ("scale = inf", "scale"),
             ("mean = [0, nan, 0]", "mean"),
-            ("deviation = [1, 1, 0]", "deviation"),
+            ("std = [1, 1, 0]", "std"),
             ("threshold = 1.5", "threshold"),
             ("threshold = nan", "threshold"),
-            ("overlap = -0.1", "overlap"),
+            ("nms_iou = -0.1", "nms_iou"),
             ("tile = 0", "tile"),
             ("tile = 100\ntile_overlap = 60", "tile_overlap"),
         ] {

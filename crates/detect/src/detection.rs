@@ -1,5 +1,6 @@
-use crate::DetectError;
+use crate::error::DetectError;
 use pomona_cloud::{ColorImage, PixelBox};
+use pomona_network::RuntimeReport;
 use serde::Serialize;
 
 /// A box in which a detector sees something.
@@ -58,14 +59,14 @@ pub trait Detector: Send + Sync {
     ///
     /// # Errors
     ///
-    /// [`DetectError`]; an image without apples is none.
+    /// [`DetectError`]; an image without apples is not one.
     fn detect(&self, image: &ColorImage) -> Result<Vec<Detection>, DetectError>;
 
-    /// What detects, for the record.
+    /// Which detector this is, for the record.
     fn report(&self) -> DetectorReport;
 }
 
-/// What detected: it stands in the output, so that a result can be traced.
+/// Which detector ran, and how: part of the output, so that a result can be traced.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct DetectorReport {
     /// Name of the detector or of the model's file.
@@ -73,25 +74,10 @@ pub struct DetectorReport {
     /// How its outputs were read, such as `yolox`; absent where it has no such choice.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub family: Option<String>,
-    /// What ran the network; absent where none of ours did.
+    /// The inference backend; absent where none of ours ran.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub runtime: Option<RuntimeReport>,
     /// What was assumed about the model, and how to state it.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<String>,
-}
-
-/// What ran a network.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct RuntimeReport {
-    /// `onnxruntime` or `embedded`.
-    pub name: String,
-    /// Its version.
-    pub version: String,
-    /// The library that was loaded; absent for the embedded one.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub library: Option<String>,
-    /// Why a runtime that was preferred did not serve; absent where none was.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub fallback_reason: Option<String>,
 }

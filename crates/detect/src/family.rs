@@ -1,4 +1,4 @@
-use crate::{ChannelOrder, Padding, Preparation};
+use pomona_network::{ChannelOrder, Padding, Preparation};
 use serde::Deserialize;
 use std::fmt;
 
@@ -20,7 +20,7 @@ pub enum Family {
     /// and x of two corners, scores `[1, C, N]`, chosen ones `[M, 3]` or `[1, M, 3]` as batch, class and row.
     #[serde(rename = "yolov3-nms")]
     YoloV3Nms,
-    /// `YOLOv4`, v5 and v7: `[1, N, 5+C]`, decoded: box, how sure that there is anything, and each class.
+    /// `YOLOv4`, v5 and v7: `[1, N, 5+C]`, decoded: box, objectness and each class.
     #[serde(rename = "yolov5", alias = "yolov4", alias = "yolov7")]
     YoloV5,
     /// `YOLOv8`, v9 and v11: `[1, 4+C, N]`, decoded: box and each class; `[1, N, 4+C]` too.
@@ -52,20 +52,13 @@ impl Family {
 
     /// How images are prepared for it where its description does not say.
     pub fn preparation(self) -> Preparation {
-        let usual = Preparation {
-            channels: ChannelOrder::Rgb,
-            white: 1.0,
-            mean: [0.0; 3],
-            deviation: [1.0; 3],
-            padding: Padding::Center,
-            fill: 114,
-        };
+        let usual = Preparation::default();
         match self {
             Self::YoloV3 | Self::YoloV3Nms => Preparation { fill: 128, ..usual },
             Self::YoloV5 | Self::YoloV8 => usual,
             Self::YoloX => Preparation {
                 channels: ChannelOrder::Bgr,
-                white: 255.0,
+                scale: 1.0,
                 padding: Padding::TopLeft,
                 ..usual
             },
@@ -85,4 +78,14 @@ impl fmt::Display for Family {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.name())
     }
+}
+
+/// What decoded boxes are measured in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Coordinates {
+    /// Pixels of the input.
+    Pixels,
+    /// Shares of the input's width and height.
+    Normalized,
 }

@@ -1,16 +1,19 @@
 use crate::{
-    Detection, Scope, suppress,
-    suppress::{best_first, is_box, widest},
+    detection::Detection,
+    suppress::{Scope, best_first, is_box, suppress, widest},
 };
 use pomona_cloud::PixelWindow;
 use std::collections::HashMap;
 
-/// How near a tile's inner border, in pixels of the network's input, a box ends that counts as cut by it: what a
-/// network errs by where it sees half an apple.
-const CUT_MARGIN: f64 = 4.0;
+/// A box that ends within so many pixels of the network's input from a tile's inner border counts as cut by it: the
+/// error of a network's box edge where it sees half an apple.
+const CUT_MARGIN_PX: f64 = 4.0;
 
-/// Share of a cut box that lies in a whole one from which on it is part of it.
+/// A cut box of which more than this share of the area lies in a whole one is part of it.
 const PART_OF_WHOLE: f64 = 0.5;
+
+/// Least score that a box weighs by: boxes of score 0 must still have a mean.
+const LEAST_SCORE: f64 = 1e-6;
 
 /// What was seen in one window of an image.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,7 +27,7 @@ pub struct View {
 }
 
 /// One set of boxes from the views of an image of `[width, height]` pixels, best first: no two of a class have an `IoU`
-/// above `overlap`.
+/// above `nms_iou`.
 ///
 /// Boxes of one class that lie on each other become their weighted mean (Solovyev, Wang and Gabruseva, Weighted boxes
 /// fusion, Image and Vision Computing 107, 2021, section 3, doi 10.1016/j.imavis.2021.104117): the best box first,
@@ -40,7 +43,7 @@ pub struct View {
 ///   and joined to the box around all their parts.
 ///
 /// The order of the views, and of the boxes in them, changes nothing.
-pub fn fuse(views: &[View], [width, height]: [usize; 2], overlap: f64) -> Vec<Detection> {
+pub fn fuse(views: &[View], [width, height]: [usize; 2], nms_iou: f64) -> Vec<Detection> {
     let mut sightings: Vec<Sighting> = Vec::new();
     for view in views {
         let boxes = view.detections.iter().filter(|d| is_box(d));
@@ -52,10 +55,10 @@ pub fn fuse(views: &[View], [width, height]: [usize; 2], overlap: f64) -> Vec<De
     let all: Vec<Detection> = sightings.iter().map(|s| s.detection).collect();
     let cell = widest(&all);
     let (cut, whole): (Vec<Sighting>, Vec<Sighting>) = sightings.into_iter().partition(|s| s.cut);
-    let (mut fused, near) = fuse_whole(&whole, cell, overlap);
-    let left = absorb(&cut, &mut fused, &near, overlap);
-    fused.extend(join(&left, cell, overlap));
-    suppress(&mut fused, overlap, Scope::PerClass);
+    let (mut fused, near) = fuse_whole(&whole, cell, nms_iou);
+    let left = absorb(&cut, &mut fused, &near, nms_iou);
+    fused.extend(join(&left, cell, nms_iou));
+    suppress(&mut fused, nms_iou, Scope::PerClass);
     fused
 }
 
@@ -79,13 +82,12 @@ impl Sighting {
             y_max: window.y1 as f64,
             ..detection
         };
-        let margin = CUT_MARGIN / view.scale;
+        let margin = CUT_MARGIN_PX / view.scale;
         let cut = (window.x0 > 0 && detection.x_min < seen.x_min + margin)
             || (window.y0 > 0 && detection.y_min < seen.y_min + margin)
             || (window.x1 < width && detection.x_max > seen.x_max - margin)
             || (window.y1 < height && detection.y_max > seen.y_max - margin);
-        // A score of zero must still leave a mean.
-        let weight = detection.score.max(1e-6) * view.scale * view.scale;
+        let weight = detection.score.max(LEAST_SCORE) * view.scale * view.scale;
         Self {
             detection,
             seen,
@@ -96,7 +98,7 @@ impl Sighting {
 }
 
 /// The weighted means of whole boxes, and where they are.
-fn fuse_whole(whole: &[Sighting], cell: f64, overlap: f64) -> (Vec<Detection>, Near) {
+fn fuse_whole(whole: &[Sighting], cell: f64, nms_iou: f64) -> (Vec<Detection>, Near) {
     let mut near = Near::new(cell);
     let mut fused: Vec<Detection> = Vec::new();
     let mut weights: Vec<f64> = Vec::new();
@@ -108,7 +110,7 @@ fn fuse_whole(whole: &[Sighting], cell: f64, overlap: f64) -> (Vec<Detection>, N
         for k in near.of(detection) {
             let iou = fused[k].iou(detection);
             let better = best.is_none_or(|(most, at)| iou > most || (iou == most && k < at));
-            if iou > overlap && better {
+            if iou > nms_iou && better {
                 best = Some((iou, k));
             }
         }
@@ -135,7 +137,7 @@ fn fuse_whole(whole: &[Sighting], cell: f64, overlap: f64) -> (Vec<Detection>, N
 }
 
 /// The cut boxes that are part of no whole one.
-fn absorb(cut: &[Sighting], whole: &mut [Detection], near: &Near, overlap: f64) -> Vec<Sighting> {
+fn absorb(cut: &[Sighting], whole: &mut [Detection], near: &Near, nms_iou: f64) -> Vec<Sighting> {
     let mut left = Vec::new();
     for sighting in cut {
         let part = common(&sighting.detection, &sighting.seen);
@@ -143,7 +145,7 @@ fn absorb(cut: &[Sighting], whole: &mut [Detection], near: &Near, overlap: f64) 
         for k in near.of(&sighting.detection) {
             if common(&part, &whole[k]).area() > PART_OF_WHOLE * part.area() {
                 absorbed = true;
-                if part.iou(&common(&whole[k], &sighting.seen)) > overlap {
+                if part.iou(&common(&whole[k], &sighting.seen)) > nms_iou {
                     whole[k].score = whole[k].score.max(sighting.detection.score);
                 }
             }
@@ -156,7 +158,7 @@ fn absorb(cut: &[Sighting], whole: &mut [Detection], near: &Near, overlap: f64) 
 }
 
 /// Boxes around the parts of what no view shows whole.
-fn join(cut: &[Sighting], cell: f64, overlap: f64) -> Vec<Detection> {
+fn join(cut: &[Sighting], cell: f64, nms_iou: f64) -> Vec<Detection> {
     let mut near = Near::new(cell);
     let mut groups: Vec<Detection> = Vec::new();
     let mut group_of: Vec<usize> = Vec::new();
@@ -168,7 +170,7 @@ fn join(cut: &[Sighting], cell: f64, overlap: f64) -> Vec<Detection> {
             let other = &cut[*k];
             let in_both = common(&common(detection, &other.seen), seen)
                 .iou(&common(&common(&other.detection, seen), &other.seen));
-            in_both.max(detection.iou(&other.detection)) > overlap
+            in_both.max(detection.iou(&other.detection)) > nms_iou
         };
         let group = near.of(detection).filter(same).map(|k| group_of[k]).min();
         let group = group.unwrap_or_else(|| {

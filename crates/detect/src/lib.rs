@@ -1,5 +1,5 @@
-//! Apples in a colour image: ONNX detectors of the YOLO family, decoded, tiled and merged, or any other
-//! network behind one trait.
+//! Apples in a colour image: ONNX detectors of the YOLO family, run over tiles, decoded and fused, or any other
+//! detector behind one trait.
 //!
 //! A detector of one's own, here one that takes anything red for an apple:
 //!
@@ -43,18 +43,16 @@
 //! - A [`Detector`] takes a colour image and gives [`Detection`]s: box, score and class, in the image's own
 //!   pixels. Implement it for a camera that brings its own network.
 //! - [`DetectorOptions`] open one from an ONNX file, or the built-in one. That is an [`OnnxDetector`]: a
-//!   [`Network`], which a runtime loaded, and what its inputs and outputs mean.
+//!   [`Network`], which `pomona-network` loads and runs over the image's tiles, and what its outputs mean.
 //! - The meaning is recognised from the network's inputs and outputs; a [`ModelDescription`], a small TOML beside
-//!   the model, states what they do not tell, and wins where it says something.
-//! - A [`Letterbox`] puts a window of the image into the network's input, and boxes back. Large images are looked
-//!   at in overlapping tiles; [`fuse`] makes one set of boxes of what all of them show, [`suppress`] is plain
-//!   suppression.
+//!   the model, states what they do not tell, and takes precedence.
+//! - [`fuse`] makes one set of boxes of those of all tiles; [`suppress`] is non-maximum suppression.
 //!
 //! | [`Family`] | outputs | meaning |
 //! |---|---|---|
 //! | `yolov3` | 2 or 3 of `[1, A·(5+C), h, w]`, other orders of axes too | logits, with anchors |
 //! | `yolov3-nms` | `[1, N, 4]`, `[1, C, N]`, `[M, 3]`; the ONNX zoo's | corners, scores, rows that its own suppression left |
-//! | `yolov5`, also v4 and v7 | `[1, N, 5+C]` | centre and size; anything at all; classes |
+//! | `yolov5`, also v4 and v7 | `[1, N, 5+C]` | centre and size; objectness; classes |
 //! | `yolov8`, also v9 and v11 | `[1, 4+C, N]` | centre and size; classes |
 //! | `yolox` | `[1, N, 5+C]` | the same as v5 relative to the cells |
 //!
@@ -63,13 +61,13 @@
 //!
 //! # Not here
 //!
-//! Depth, robots, and what an apple weighs; training; tracking from image to image; networks that give masks,
-//! key points or turned boxes. Box files are read and written by `pomona-cloud`.
+//! Depth and robots; training; tracking from image to image; networks that give masks, key points or rotated boxes.
+//! Networks are loaded and run by `pomona-network`, box files are read and written by `pomona-cloud`.
 //!
 //! # Features
 //!
-//! `onnxruntime` loads ONNX Runtime while running, if a library of it is there; `embedded` brings a runtime in
-//! pure Rust. Both are on unless told otherwise.
+//! The inference backends of `pomona-network`: `onnxruntime` loads ONNX Runtime at run time, if a library of it is
+//! there; `embedded` builds one in pure Rust in. Both are on by default.
 //!
 //! # References
 //!
@@ -85,27 +83,22 @@ mod description;
 mod detection;
 mod error;
 mod family;
-mod fault;
 mod fuse;
-mod letterbox;
 mod names;
-mod network;
 mod onnx_detector;
+mod open;
 mod options;
-mod ports;
-mod resample;
-mod runtime;
 mod suppress;
-mod tiling;
 
-pub use description::{Coordinates, ModelDescription};
-pub use detection::{Detection, Detector, DetectorReport, RuntimeReport};
+pub use classes::ClassChoice;
+pub use description::ModelDescription;
+pub use detection::{Detection, Detector, DetectorReport};
 pub use error::DetectError;
-pub use family::Family;
+pub use family::{Coordinates, Family};
 pub use fuse::{View, fuse};
-pub use letterbox::{ChannelOrder, Letterbox, Padding, Preparation};
-pub use network::{Element, Network, Port, Tensor};
 pub use onnx_detector::OnnxDetector;
-pub use options::{ClassChoice, DetectorOptions, RuntimeChoice, TilingChoice};
-pub use runtime::{ModelSource, open_network};
+pub use options::DetectorOptions;
 pub use suppress::{Scope, suppress};
+
+// Those types of `pomona-network` that the types above are made with.
+pub use pomona_network::{Network, NetworkError, RuntimeChoice, RuntimeReport, TilingChoice};

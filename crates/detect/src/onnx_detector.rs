@@ -1,47 +1,47 @@
 use crate::{
-    DetectError, Detection, Detector, DetectorOptions, DetectorReport, Family, Letterbox,
-    ModelDescription, Network, Preparation, Scope, View, classes,
-    decode::{Decoder, class_count, recognise},
-    fault::Fault,
-    fuse, ports,
-    ports::Inputs,
-    suppress,
-    tiling::Tiling,
+    classes,
+    decode::{Decoder, class_count, decode, recognise},
+    description::ModelDescription,
+    detection::{Detection, Detector, DetectorReport},
+    error::DetectError,
+    family::Family,
+    fuse::{View, fuse},
+    options::DetectorOptions,
+    suppress::{Scope, suppress},
 };
 use pomona_cloud::{ColorImage, PixelWindow};
-use rayon::prelude::*;
+use pomona_network::{
+    ImageNetwork, Letterbox, ModelFault, Network, Tensor, Tiling, check_image, input_size,
+};
 
-/// Lowest score that counts where neither options nor description say.
-const THRESHOLD: f64 = 0.25;
+/// Lowest score of a box where neither options nor description say.
+const DEFAULT_THRESHOLD: f64 = 0.25;
 
-/// `IoU` above which two boxes are one apple where neither options nor description say.
-const OVERLAP: f64 = 0.45;
+/// `IoU` above which of two boxes only the better one is kept, where neither options nor description say.
+const DEFAULT_NMS_IOU: f64 = 0.45;
 
 /// A detector of the YOLO family: a network, and what its outputs mean.
 ///
 /// An image is cut into tiles where it is large, each is scaled to the network's input, and the boxes of all tiles
-/// are mapped back to the image and merged. The tiles are shared among the cores; their number changes nothing.
+/// are mapped back to the image and fused. The tiles are spread over the cores; their number changes nothing.
 pub struct OnnxDetector {
-    network: Box<dyn Network>,
+    network: ImageNetwork,
     name: String,
-    inputs: Inputs,
-    input: [usize; 2],
-    preparation: Preparation,
     decoder: Decoder,
-    overlap: f64,
+    nms_iou: f64,
     tiling: Tiling,
     notes: Vec<String>,
 }
 
 impl OnnxDetector {
-    /// A detector around a network; `name` is the model's file, or what else stands for it in messages.
+    /// A detector around a network; `name` is the model's file, or its name in messages.
     ///
-    /// The options' model and runtime are not looked at: the network is loaded already.
+    /// The options' model and runtime are not read: the network is loaded already.
     ///
     /// # Errors
     ///
-    /// [`DetectError::Model`] for a network of no known family, or one that its description contradicts;
-    /// [`DetectError::Setting`] for options that make no sense.
+    /// [`DetectError::Network`] for a network of no known family, one that its description contradicts, or a grid
+    /// without tiles; [`DetectError::Setting`] for a threshold that makes no sense.
     pub fn new(
         network: Box<dyn Network>,
         name: impl Into<String>,
@@ -49,71 +49,24 @@ impl OnnxDetector {
         options: &DetectorOptions,
     ) -> Result<Self, DetectError> {
         let name = name.into();
-        share("threshold", options.threshold)?;
-        share("overlap", options.overlap)?;
-        let detector = Self::assemble(&*network, description, options);
-        let (inputs, input, decoder, notes) = detector.map_err(|fault| fault.at(&*name))?;
+        check_share("threshold", options.threshold)?;
+        check_share("nms_iou", options.nms_iou)?;
+        let recognised = Recognised::new(&*network, description, options);
+        let Recognised { decoder, notes } = recognised.map_err(|fault| fault.at(&*name))?;
+        let tiling = Tiling::new(&description.tiling(options.tiling), decoder.input)?;
+        let preparation = description.preparation(decoder.family);
+        let network = ImageNetwork::new(network, decoder.input, preparation);
         Ok(Self {
-            tiling: Tiling::new(options.tiling, input, description)?,
-            overlap: options.overlap.or(description.overlap).unwrap_or(OVERLAP),
-            preparation: description.preparation(decoder.family),
-            network,
+            network: network.map_err(|fault| fault.at(&*name))?,
             name,
-            inputs,
-            input,
             decoder,
+            nms_iou: options
+                .nms_iou
+                .or(description.nms_iou)
+                .unwrap_or(DEFAULT_NMS_IOU),
+            tiling,
             notes,
         })
-    }
-
-    fn assemble(
-        network: &dyn Network,
-        description: &ModelDescription,
-        options: &DetectorOptions,
-    ) -> Result<(Inputs, [usize; 2], Decoder, Vec<String>), Fault> {
-        description.check()?;
-        let mut description = description.clone();
-        if description.classes.is_none() {
-            description.classes = classes::from_metadata(network.metadata());
-        }
-        let description = &description;
-        let inputs = Inputs::of(network.inputs())?;
-        let image = &network.inputs()[inputs.image];
-        let sides = ports::input_size(image, description.input_size)?;
-        let known = ports::both(sides);
-        let outputs = network.outputs();
-        let family = recognise(network.inputs(), outputs, known, description)?;
-        let mut notes = Vec::new();
-        let input = known.unwrap_or_else(|| {
-            let usual = family.input_side();
-            let input = sides.map(|side| side.unwrap_or(usual));
-            notes.push(format!(
-                "the model leaves its input's size open: {}x{} pixels are assumed, as {family} has them; state \
-                 `input_size` in the description beside it",
-                input[0], input[1]
-            ));
-            input
-        });
-        let named = description.classes.as_ref().map(Vec::len);
-        let count = class_count(family, outputs, input, description);
-        let choice = options.class.as_ref().or(description.class.as_ref());
-        let class = classes::choose(choice, description.classes.as_deref(), count)?;
-        let decoder = Decoder {
-            family,
-            stated: description.family.is_some(),
-            input,
-            class,
-            threshold: options
-                .threshold
-                .or(description.threshold)
-                .unwrap_or(THRESHOLD),
-            classes: named,
-            strides: description.strides.clone(),
-            anchors: description.anchors.clone(),
-            coordinates: description.coordinates,
-            ports: outputs.to_vec(),
-        };
-        Ok((inputs, input, decoder, notes))
     }
 
     /// How the network's outputs are read.
@@ -123,7 +76,7 @@ impl OnnxDetector {
 
     /// Width and height of the network's input in pixels.
     pub fn input_size(&self) -> [usize; 2] {
-        self.input
+        self.network.input_size()
     }
 
     /// The windows of an image of `[width, height]` pixels that the network is run on.
@@ -131,84 +84,129 @@ impl OnnxDetector {
         self.tiling.windows(image)
     }
 
-    /// What is seen in one window, in pixels of the image.
-    fn look(&self, image: &ColorImage, window: PixelWindow) -> Result<View, DetectError> {
-        let letterbox = Letterbox::new(window, self.input, self.preparation.padding);
-        let filled = letterbox.and_then(|l| Some((l, l.fill(image, &self.preparation)?)));
-        let (letterbox, data) = filled.ok_or_else(|| not_an_image(image))?;
-        let tensors = self.inputs.tensors(self.network.inputs(), self.input, data);
-        let outputs = self.network.run(&tensors)?;
-        let boxes = self.decoder.decode(&outputs);
+    /// What one window shows, in pixels of an image of this size: the outputs decoded, mapped back, and suppressed.
+    fn view(
+        &self,
+        size: [usize; 2],
+        letterbox: Letterbox,
+        outputs: &[Tensor],
+    ) -> Result<View, DetectError> {
+        let boxes = decode(&self.decoder, outputs);
         let mut detections = boxes.map_err(|fault| fault.at(&*self.name))?;
+        let [width, height] = size.map(|side| side as f64);
         for detection in &mut detections {
             let [x_min, y_min] = letterbox.to_image([detection.x_min, detection.y_min]);
             let [x_max, y_max] = letterbox.to_image([detection.x_max, detection.y_max]);
             *detection = Detection {
-                x_min: x_min.clamp(0.0, image.width as f64),
-                y_min: y_min.clamp(0.0, image.height as f64),
-                x_max: x_max.clamp(0.0, image.width as f64),
-                y_max: y_max.clamp(0.0, image.height as f64),
+                x_min: x_min.clamp(0.0, width),
+                y_min: y_min.clamp(0.0, height),
+                x_max: x_max.clamp(0.0, width),
+                y_max: y_max.clamp(0.0, height),
                 ..*detection
             };
         }
-        // What lay in the padding alone has no area now, and goes.
-        suppress(&mut detections, self.overlap, Scope::PerClass);
+        // A box that lay in the padding alone has no area now, and is removed.
+        suppress(&mut detections, self.nms_iou, Scope::PerClass);
         let [across, down] = letterbox.scale();
         Ok(View {
-            window,
+            window: letterbox.window(),
             scale: (across * down).sqrt(),
             detections,
         })
+    }
+
+    /// Longest side in pixels of the image below which a box of the pass over the whole image is dropped: half of the
+    /// tiles' overlap. One of the tiles shows whatever is so small whole, and larger.
+    fn smallest_of_whole_pass(&self) -> f64 {
+        self.tiling.overlap() as f64 / 2.0
     }
 }
 
 impl Detector for OnnxDetector {
     fn detect(&self, image: &ColorImage) -> Result<Vec<Detection>, DetectError> {
+        check_image(image)?;
         let size = [image.width, image.height];
-        let pixels = image.width.checked_mul(image.height);
-        if size.contains(&0) || pixels != Some(image.pixels.len()) {
-            return Err(not_an_image(image));
-        }
         let windows = self.tiling.windows(size);
-        let looked: Vec<_> = windows
-            .into_par_iter()
-            .map(|window| self.look(image, window))
-            .collect();
-        let mut views = looked.into_iter().collect::<Result<Vec<View>, _>>()?;
+        let read = |letterbox, outputs: Vec<Tensor>| self.view(size, letterbox, &outputs);
+        let mut views = self.network.run_windows(image, &windows, read)?;
         if let [view] = &mut views[..] {
             return Ok(std::mem::take(&mut view.detections));
         }
-        let smallest = self.tiling.smallest_in_whole_pass();
+        let smallest = self.smallest_of_whole_pass();
         for view in &mut views {
             if [view.window.width(), view.window.height()] == size {
                 let side = |d: &Detection| (d.x_max - d.x_min).max(d.y_max - d.y_min);
                 view.detections.retain(|d| side(d) >= smallest);
             }
         }
-        Ok(fuse(&views, size, self.overlap))
+        Ok(fuse(&views, size, self.nms_iou))
     }
 
     fn report(&self) -> DetectorReport {
         DetectorReport {
             name: self.name.clone(),
             family: Some(self.decoder.family.name().to_owned()),
-            runtime: Some(self.network.report()),
+            runtime: Some(self.network.network().report()),
             notes: self.notes.clone(),
         }
     }
 }
 
-fn not_an_image(image: &ColorImage) -> DetectError {
-    DetectError::Image {
-        width: image.width,
-        height: image.height,
-        problem: format!("{} pixels", image.pixels.len()),
-        remedy: "give an image of at least one pixel, with as many as its size says".to_owned(),
+/// What a network's inputs and outputs, its description and the options say together.
+struct Recognised {
+    decoder: Decoder,
+    /// What was assumed.
+    notes: Vec<String>,
+}
+
+impl Recognised {
+    fn new(
+        network: &dyn Network,
+        description: &ModelDescription,
+        options: &DetectorOptions,
+    ) -> Result<Self, ModelFault> {
+        description.check()?;
+        let mut description = description.clone();
+        if description.classes.is_none() {
+            description.classes = classes::from_metadata(network.metadata());
+        }
+        let (inputs, outputs) = (network.inputs(), network.outputs());
+        let [width, height] = input_size(inputs, description.input_size)?;
+        let known = width.zip(height).map(<[usize; 2]>::from);
+        let family = recognise(inputs, outputs, known, &description)?;
+        let mut notes = Vec::new();
+        let input = known.unwrap_or_else(|| {
+            let usual = family.input_side();
+            let [width, height] = [width, height].map(|side| side.unwrap_or(usual));
+            notes.push(format!(
+                "the model leaves its input's size open: {width}x{height} pixels are assumed, as {family} has them; \
+                 state `input_size` in the description beside it"
+            ));
+            [width, height]
+        });
+        let count = class_count(family, outputs, input, &description);
+        let choice = options.class.as_ref().or(description.class.as_ref());
+        let decoder = Decoder {
+            family,
+            stated: description.family.is_some(),
+            input,
+            class: classes::choose(choice, description.classes.as_deref(), count)?,
+            threshold: options
+                .threshold
+                .or(description.threshold)
+                .unwrap_or(DEFAULT_THRESHOLD),
+            classes: description.classes.as_ref().map(Vec::len),
+            strides: description.strides,
+            anchors: description.anchors,
+            coordinates: description.coordinates,
+            ports: outputs.to_vec(),
+        };
+        Ok(Self { decoder, notes })
     }
 }
 
-/// Refuses a setting that is no share.
-fn share(setting: &'static str, value: Option<f64>) -> Result<(), DetectError> {
+/// Refuses a setting outside 0 to 1.
+fn check_share(setting: &'static str, value: Option<f64>) -> Result<(), DetectError> {
     match value {
         Some(value) if !(0.0..=1.0).contains(&value) => Err(DetectError::Setting {
             setting,

@@ -1,4 +1,4 @@
-use crate::Detection;
+use crate::detection::Detection;
 use std::cmp::Ordering;
 
 /// Between which boxes the better one suppresses the other.
@@ -11,13 +11,13 @@ pub enum Scope {
     AcrossClasses,
 }
 
-/// Keeps the best of every set of boxes that lie on each other: no two that remain have an `IoU` above `overlap`, and
-/// each that is gone has one with a better one that remains. The rest comes out best first.
+/// Non-maximum suppression: no two boxes that remain have an `IoU` above `nms_iou`, and each that is removed has one
+/// with a better box that remains. They come out best first.
 ///
-/// Which of two equally good boxes is the better one depends on their class and place, not on the order in which they
-/// come. Boxes with a number that is not finite, or without area, go. Time grows with the number of boxes times those
-/// that overlap along x.
-pub fn suppress(detections: &mut Vec<Detection>, overlap: f64, scope: Scope) {
+/// Which of two boxes of equal score is the better one depends on their class and position, not on the order in which
+/// they come. Boxes with a number that is not finite, or without area, are removed. Time grows with the number of boxes
+/// times those that overlap along x.
+pub fn suppress(detections: &mut Vec<Detection>, nms_iou: f64, scope: Scope) {
     detections.retain(is_box);
     detections.sort_by(best_first);
     let widest = widest(detections);
@@ -37,7 +37,7 @@ pub fn suppress(detections: &mut Vec<Detection>, overlap: f64, scope: Scope) {
                 break;
             }
             let rival = scope == Scope::AcrossClasses || candidate.class == kept.class;
-            if other > best && rival && kept.iou(candidate) > overlap {
+            if other > best && rival && kept.iou(candidate) > nms_iou {
                 alive[other] = false;
             }
         }
@@ -108,13 +108,13 @@ mod tests {
     }
 
     /// Every pair, as the definition has it.
-    fn oracle(mut boxes: Vec<Detection>, overlap: f64, scope: Scope) -> Vec<Detection> {
+    fn oracle(mut boxes: Vec<Detection>, nms_iou: f64, scope: Scope) -> Vec<Detection> {
         boxes.sort_by(best_first);
         let mut kept: Vec<Detection> = Vec::new();
         for candidate in boxes {
             let beaten = kept.iter().any(|k| {
                 (scope == Scope::AcrossClasses || k.class == candidate.class)
-                    && k.iou(&candidate) > overlap
+                    && k.iou(&candidate) > nms_iou
             });
             if !beaten {
                 kept.push(candidate);
@@ -127,19 +127,19 @@ mod tests {
         #[test]
         fn as_by_trying_every_pair(
             boxes in boxes(60),
-            overlap in prop_oneof![Just(0.0), Just(1.0), 0.0..1.0],
+            nms_iou in prop_oneof![Just(0.0), Just(1.0), 0.0..1.0],
             across in any::<bool>(),
             turn in 0..60_usize,
         ) {
             let scope = if across { Scope::AcrossClasses } else { Scope::PerClass };
             let mut ours = boxes.clone();
-            suppress(&mut ours, overlap, scope);
-            prop_assert_eq!(&ours, &oracle(boxes.clone(), overlap, scope));
+            suppress(&mut ours, nms_iou, scope);
+            prop_assert_eq!(&ours, &oracle(boxes.clone(), nms_iou, scope));
             // The order in which they come says nothing.
             let mut turned = boxes;
             let middle = turn.min(turned.len());
             turned.rotate_left(middle);
-            suppress(&mut turned, overlap, scope);
+            suppress(&mut turned, nms_iou, scope);
             prop_assert_eq!(&ours, &turned);
         }
     }

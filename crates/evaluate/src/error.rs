@@ -66,14 +66,6 @@ pub enum EvaluateError {
         /// What to do.
         remedy: String,
     },
-    /// A detector could not work on an image.
-    #[error("{}: {source}", .image.display())]
-    Detection {
-        /// The image.
-        image: PathBuf,
-        /// What it said.
-        source: pomona_detect::DetectError,
-    },
     /// A table could not be written as text.
     #[error("table of apples: {reason}")]
     Table {
@@ -81,11 +73,6 @@ pub enum EvaluateError {
         reason: String,
     },
     /// A plot could not be drawn.
-    #[error("plot `{name}`: {reason}")]
-    Plot {
-        /// The plot.
-        name: String,
-        /// Why.
-        reason: String,
-    },
+    #[error(transparent)]
+    Plot(#[from] pomona_report::plot::PlotError),
 }

@@ -32,15 +32,11 @@
 //! - [`report_page`] and [`apples_csv`] are what `report.html` and `apples.csv` hold.
 //! - [`measure_calipers`] sets fitted radii beside measured diameters on real frames, and
 //!   aligns the apples of two frames of one tree.
-//! - [`measure_depth_checks`] asks what depth is worth to a detector's boxes: right and wrong ones, split ones, missing ones.
-//! - [`evaluate_detections`] measures detectors, and boxes of other programs, on the labels of a
-//!   [`DetectionDataset`]: precision over recall ([`Curve`]), recall by size, what is missed and what is found
-//!   besides, with intervals and paired differences.
-//! - [`paper_figures`] holds every figure of the paper that ours is set beside.
 //!
 //! # Not here
 //!
-//! Picking (`pomona`), scenes and their truth (`pomona-scenes`), and the judgement whether a
+//! Picking (`pomona`), scenes and their truth (`pomona-scenes`), detectors against labels (`pomona-labels`), and the
+//! judgement whether a
 //! result is good enough: limits and golden runs belong to `cargo xtask regress`.
 //!
 //! # References
@@ -48,59 +44,37 @@
 //! Gao, Zhou, Cao and Jiang 2022, "An Algorithm for Calculating Apple Picking Direction
 //! Based on 3D Vision", Agriculture 12(8), 1170, doi 10.3390/agriculture12081170.
 
-mod base;
+mod apple_row;
+mod apples_csv;
 mod calipers;
-mod comparison;
-mod depth_check;
-mod detection;
 mod error;
-mod grouping;
-mod lab;
+mod evaluation;
 mod matching;
 mod method;
-pub mod paper_figures;
-mod reliability;
-mod repeatability;
+mod paper_figures;
 mod report;
-mod result;
-mod row;
+mod robot;
 mod run;
-mod statistics;
 mod subject;
-mod table_file;
+mod suite;
 
-pub use base::{
-    BaseResult, BaseRow, BudgetTerm, CalibrationNoise, Coverage, DirectionTerms, Mounting, Planned,
-    PlannedRow, PositionTerms, RobotTrial, Term,
-};
+pub use apple_row::{AppleRow, NO_BOX};
+pub use apples_csv::apples_csv;
 pub use calipers::{
     AlignedApple, Alignment, CALIPER_SCHEMA, Caliper, CaliperFrame, CaliperReport, CaliperResult,
     CaliperRow, measure_calipers, read_calipers,
 };
-pub use comparison::{Comparison, compare};
-pub use depth_check::{
-    DepthCheckResult, FixedDetector, MarkCounts, MergeCounts, SearchCounts, measure_boxed_frame,
-    measure_depth_checks,
-};
-pub use detection::{
-    AtThreshold, BestF1, COCO_SIZES, Curve, CurvePoint, DETECTION_SCHEMA, DatasetRecord,
-    DetectionDataset, DetectionDifference, DetectionEvaluation, DetectionResult, DetectionSettings,
-    DetectionSource, Estimate, FINE_SIZES, ImageOutcome, Label, LabelForm, LabelledImage, Outcome,
-    SizeClass, SizeRecall, WorstImage, evaluate_detections, match_detections, read_detections,
-};
 pub use error::EvaluateError;
-pub use grouping::{Difficulty, Group, Grouping};
-pub use lab::LabRow;
-pub use matching::{SAME_APPLE_IOU, match_picks};
+pub use evaluation::{Evaluation, SCHEMA};
 pub use method::PickMethod;
-pub use reliability::{ConfidenceBin, RIGHT_RAD, Reliability, RiskPoint, SdCalibration, UNSURE};
-pub use repeatability::Repeatability;
-pub use report::{caliper_page, detection_page, report_page};
-pub use result::{AngleErrors, Evaluation, Refusals, SCHEMA, SuiteResult, Timing};
-pub use row::{
-    AppleRow, NO_BOX, VISIBLE_APPLE_SHARE, VISIBLE_BRANCH_LENGTH_M, VISIBLE_BRANCH_PIXELS,
+pub use report::{caliper_page, report_page};
+pub use robot::{
+    BaseRow, CalibrationNoise, DirectionTerms, PlannedRow, PositionTerms, RobotTrial, Term,
 };
 pub use run::{evaluate, evaluate_with_robot};
-pub use statistics::{Share, Spread, Summary};
 pub use subject::Subject;
-pub use table_file::apples_csv;
+pub use suite::{
+    AngleErrors, BaseResult, BudgetTerm, Comparison, ConfidenceBin, Coverage, Difficulty, Group,
+    Grouping, LabRow, Planned, Refusals, Reliability, Repeatability, RiskPoint, SdCalibration,
+    SuiteResult, Timing,
+};

@@ -1,24 +1,24 @@
-use pomona::{BoxRecord, Pick};
+use pomona::AppleAnswer;
 use pomona_cloud::PixelBox;
 use pomona_scenes::AppleTruth;
 
 /// Least overlap of two boxes that are of the same apple, as intersection over union.
 ///
 /// The usual threshold of detection benchmarks (PASCAL VOC; Everingham et al. 2010).
-pub const SAME_APPLE_IOU: f64 = 0.5;
+const SAME_APPLE_IOU: f64 = 0.5;
 
-/// For each apple of the truth the index of its pick, each pick used once.
+/// For each apple of the truth the index of its answer, each answer used once.
 ///
-/// A pick whose box bears the apple's name and overlaps it at all is taken first: names repeat in
+/// An answer whose box bears the apple's name and overlaps it at all is taken first: names repeat in
 /// detectors' output, where each may be `apple`. The rest are joined by overlap, best first.
-pub fn match_picks(truth: &[AppleTruth], picks: &[Pick]) -> Vec<Option<usize>> {
+pub(crate) fn match_answers(truth: &[AppleTruth], answers: &[AppleAnswer]) -> Vec<Option<usize>> {
     let mut matched = vec![None; truth.len()];
-    let mut used = vec![false; picks.len()];
+    let mut used = vec![false; answers.len()];
     let mut pairs = Vec::new();
     for (t, apple) in truth.iter().enumerate() {
-        for (p, pick) in picks.iter().enumerate() {
-            let overlap = intersection_over_union(&apple.bounds, &pick.pixel_box);
-            let named = apple.bounds.name == pick.pixel_box.name;
+        for (p, answer) in answers.iter().enumerate() {
+            let overlap = intersection_over_union(&apple.bounds, &answer.bounds);
+            let named = apple.bounds.name == answer.bounds.name;
             if overlap >= SAME_APPLE_IOU || (named && overlap > 0.0) {
                 pairs.push((named, overlap, t, p));
             }
@@ -34,18 +34,18 @@ pub fn match_picks(truth: &[AppleTruth], picks: &[Pick]) -> Vec<Option<usize>> {
     matched
 }
 
-fn intersection_over_union(a: &PixelBox, b: &BoxRecord) -> f64 {
+fn intersection_over_union(a: &PixelBox, b: &PixelBox) -> f64 {
     let width = (a.x_max.min(b.x_max) - a.x_min.max(b.x_min)).max(0.0);
     let height = (a.y_max.min(b.y_max) - a.y_min.max(b.y_min)).max(0.0);
     let both = width * height;
-    let either = a.width() * a.height() + (b.x_max - b.x_min) * (b.y_max - b.y_min) - both;
+    let either = a.width() * a.height() + b.width() * b.height() - both;
     if either > 0.0 { both / either } else { 0.0 }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use pomona::{Status, TimingRecord};
+    use pomona::Status;
 
     fn bounds(name: &str, x: f64) -> PixelBox {
         PixelBox {
@@ -65,31 +65,15 @@ mod tests {
         .unwrap()
     }
 
-    fn pick(id: usize, name: &str, x: f64) -> Pick {
-        Pick {
-            id,
-            pixel_box: BoxRecord::from(&bounds(name, x)),
-            status: Status::NoDepth,
-            apple: None,
-            branch: None,
-            foot: None,
-            direction: None,
-            direction_sd: None,
-            confidence: None,
-            candidates: Vec::new(),
-            view_from: None,
-            fallback: None,
-            robot: None,
-            plan: pomona::PlanRecord::default(),
-            timing_ms: TimingRecord::default(),
-        }
+    fn answer(id: usize, name: &str, x: f64) -> AppleAnswer {
+        AppleAnswer::new(id, bounds(name, x), Status::NoDepth)
     }
 
     #[test]
     fn names_lead_in_any_order() {
         let truth = [apple("a", 0.0), apple("b", 3.0)];
         assert_eq!(
-            match_picks(&truth, &[pick(0, "b", 0.0), pick(1, "a", 3.0)]),
+            match_answers(&truth, &[answer(0, "b", 0.0), answer(1, "a", 3.0)]),
             [Some(1), Some(0)]
         );
     }
@@ -97,12 +81,12 @@ mod tests {
     #[test]
     fn without_names_the_overlap_decides_and_each_pick_counts_once() {
         let truth = [apple("0", 0.0), apple("1", 20.0), apple("2", 1.0)];
-        let picks = [
-            pick(0, "apple", 19.0),
-            pick(1, "apple", 0.5),
-            pick(2, "apple", 60.0),
+        let answers = [
+            answer(0, "apple", 19.0),
+            answer(1, "apple", 0.5),
+            answer(2, "apple", 60.0),
         ];
-        let matched = match_picks(&truth, &picks);
+        let matched = match_answers(&truth, &answers);
         assert_eq!(matched[1], Some(0));
         assert_eq!((matched[0], matched[2]), (Some(1), None));
     }
@@ -110,7 +94,7 @@ mod tests {
     #[test]
     fn a_name_alone_without_overlap_is_another_apple() {
         assert_eq!(
-            match_picks(&[apple("a", 0.0)], &[pick(0, "a", 50.0)]),
+            match_answers(&[apple("a", 0.0)], &[answer(0, "a", 50.0)]),
             [None]
         );
     }

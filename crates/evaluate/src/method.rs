@@ -1,5 +1,4 @@
-use pomona::{Evidence, Outcome, PickError, Picker, Record, RobotFromCamera};
-use pomona_cloud::Frame;
+use pomona::{CheckedFrame, FrameAnswer, PickError, Picker, RobotFromCamera};
 
 /// What can be evaluated: something that answers a frame.
 ///
@@ -13,23 +12,21 @@ pub trait PickMethod: Sync {
     /// # Errors
     ///
     /// Where the frame cannot be worked on at all.
-    fn answer(&self, frame: &Frame, seed: u64) -> Result<Record, PickError>;
+    fn answer(&self, frame: &CheckedFrame<'_>, seed: u64) -> Result<FrameAnswer, PickError>;
 
-    /// The same with the answers in a robot's frame too, and what supports them. Without a method's own the answers
-    /// stay in the camera's frame, and nothing is measured in the base's.
+    /// The same with the answers in a robot's frame too. Without a method's own the answers stay in the camera's
+    /// frame, and nothing is measured in the base's.
     ///
     /// # Errors
     ///
     /// As [`PickMethod::answer`].
-    fn outcome(
+    fn answer_for_robot(
         &self,
-        frame: &Frame,
+        frame: &CheckedFrame<'_>,
         seed: u64,
         _robot_from_camera: &RobotFromCamera,
-    ) -> Result<Outcome, PickError> {
-        let record = self.answer(frame, seed)?;
-        let evidence = vec![Evidence::default(); record.picks.len()];
-        Ok(Outcome { record, evidence })
+    ) -> Result<FrameAnswer, PickError> {
+        self.answer(frame, seed)
     }
 }
 
@@ -38,16 +35,16 @@ impl PickMethod for Picker {
         self.config().method.name()
     }
 
-    fn answer(&self, frame: &Frame, seed: u64) -> Result<Record, PickError> {
-        Ok(self.pick(frame, seed, None)?.record)
+    fn answer(&self, frame: &CheckedFrame<'_>, seed: u64) -> Result<FrameAnswer, PickError> {
+        self.pick(frame, seed, None)
     }
 
-    fn outcome(
+    fn answer_for_robot(
         &self,
-        frame: &Frame,
+        frame: &CheckedFrame<'_>,
         seed: u64,
         robot_from_camera: &RobotFromCamera,
-    ) -> Result<Outcome, PickError> {
+    ) -> Result<FrameAnswer, PickError> {
         self.pick(frame, seed, Some(robot_from_camera))
     }
 }

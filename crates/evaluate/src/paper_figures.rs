@@ -6,15 +6,15 @@
 
 /// One row of Tables 1–3.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PaperOrientation {
+pub(crate) struct PaperOrientation {
     /// Name of the orientation in the lab suites, such as `x-90`.
-    pub name: &'static str,
+    pub(crate) name: &'static str,
     /// Fitted radius, metres.
-    pub radius: f64,
+    pub(crate) radius: f64,
     /// Direction calculated, as printed.
-    pub direction: [f64; 3],
+    pub(crate) direction: [f64; 3],
     /// Angle error as printed, degrees.
-    pub angle_error_deg: f64,
+    pub(crate) angle_error_deg: f64,
 }
 
 const fn row(
@@ -33,7 +33,7 @@ const fn row(
 
 /// Tables 1 to 3. The vector of the first row is misprinted: its norm is 1.166, and it lies 34.2°
 /// off the true one instead of the 5.23° printed beside it.
-pub const ORIENTATIONS: [PaperOrientation; 15] = [
+pub(crate) const ORIENTATIONS: [PaperOrientation; 15] = [
     row("x-90", 24.744, [-0.026, -0.655, 0.964], 5.23),
     row("x-45", 27.780, [-0.012, -0.707, 0.708], 0.71),
     row("x0", 26.700, [0.000, -0.999, -0.033], 1.87),
@@ -52,60 +52,60 @@ pub const ORIENTATIONS: [PaperOrientation; 15] = [
 ];
 
 /// True radius of the lab's apple, metres (section 2.2.6).
-pub const LAB_RADIUS: f64 = 0.025_78;
+pub(crate) const LAB_RADIUS: f64 = 0.025_78;
 
 /// The 474 repeats of section 3, Figures 13 to 15.
-pub mod repeats {
+pub(crate) mod repeats {
     /// How many.
-    pub const COUNT: usize = 474;
+    pub(crate) const COUNT: usize = 474;
     /// Measured radius of the apple, metres.
-    pub const TRUE_RADIUS: f64 = 0.041_67;
+    pub(crate) const TRUE_RADIUS: f64 = 0.041_67;
     /// Mean fitted radius, metres.
-    pub const RADIUS_MEAN: f64 = 0.042_64;
+    pub(crate) const RADIUS_MEAN: f64 = 0.042_64;
     /// Standard deviation of the radius, metres.
-    pub const RADIUS_SD: f64 = 0.001_79;
+    pub(crate) const RADIUS_SD: f64 = 0.001_79;
     /// Standard deviation of the coordinates of O, metres: at most.
-    pub const CENTER_SD_AT_MOST: f64 = 0.0025;
+    pub(crate) const CENTER_SD_AT_MOST: f64 = 0.0025;
     /// Standard deviation of the coordinates of C, metres; the paper gives one number for all three.
-    pub const FOOT_SD: f64 = 0.015_60;
+    pub(crate) const FOOT_SD: f64 = 0.015_60;
     /// Mean angle to the mean direction, degrees.
-    pub const ANGLE_MEAN_DEG: f64 = 11.81;
+    pub(crate) const ANGLE_MEAN_DEG: f64 = 11.81;
     /// Its standard deviation, degrees.
-    pub const ANGLE_SD_DEG: f64 = 13.65;
+    pub(crate) const ANGLE_SD_DEG: f64 = 13.65;
     /// Share within 10°.
-    pub const WITHIN_10_DEG: f64 = 0.626_58;
+    pub(crate) const WITHIN_10_DEG: f64 = 0.626_58;
     /// Share within 20°.
-    pub const WITHIN_20_DEG: f64 = 0.850_21;
+    pub(crate) const WITHIN_20_DEG: f64 = 0.850_21;
     /// Share at 50° or more.
-    pub const AT_LEAST_50_DEG: f64 = 0.033_76;
+    pub(crate) const AT_LEAST_50_DEG: f64 = 0.033_76;
 }
 
 /// A line of Table 4: mean and standard deviation, seconds, on an AMD R7-5800H.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PaperTime {
+pub(crate) struct PaperTime {
     /// Mean.
-    pub mean_s: f64,
+    pub(crate) mean_s: f64,
     /// Standard deviation.
-    pub sd_s: f64,
+    pub(crate) sd_s: f64,
 }
 
 /// Table 4: finding the apple in the colour image.
-pub const TIME_DETECTION: PaperTime = PaperTime {
+pub(crate) const TIME_DETECTION: PaperTime = PaperTime {
     mean_s: 0.042,
     sd_s: 0.004,
 };
 /// Table 4: fitting the sphere.
-pub const TIME_SPHERE: PaperTime = PaperTime {
+pub(crate) const TIME_SPHERE: PaperTime = PaperTime {
     mean_s: 0.273,
     sd_s: 0.061,
 };
 /// Table 4: fitting the line, and the direction.
-pub const TIME_LINE: PaperTime = PaperTime {
+pub(crate) const TIME_LINE: PaperTime = PaperTime {
     mean_s: 0.228,
     sd_s: 0.009,
 };
 /// Table 4: all of it.
-pub const TIME_TOTAL: PaperTime = PaperTime {
+pub(crate) const TIME_TOTAL: PaperTime = PaperTime {
     mean_s: 0.543,
     sd_s: 0.063,
 };

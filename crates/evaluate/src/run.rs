@@ -1,7 +1,12 @@
-use crate::{
-    AppleRow, BaseRow, EvaluateError, Evaluation, PickMethod, RobotTrial, SCHEMA, Subject,
-    SuiteResult, compare, match_picks,
-};
+use crate::apple_row::AppleRow;
+use crate::error::EvaluateError;
+use crate::evaluation::{Evaluation, SCHEMA};
+use crate::matching::match_answers;
+use crate::method::PickMethod;
+use crate::robot::{BaseRow, RobotTrial};
+use crate::subject::Subject;
+use crate::suite::{SuiteResult, compare};
+use pomona::CheckedFrame;
 use rayon::prelude::*;
 
 /// What one method said of one frame.
@@ -100,6 +105,7 @@ fn answer(
     trial: Option<&RobotTrial>,
 ) -> Result<Vec<Answered>, EvaluateError> {
     let scene = subject.load()?;
+    let frame = CheckedFrame::new(&scene.frame)?;
     let mounted = match trial {
         Some(trial) => Some((trial, trial.mounting(subject, seed)?)),
         None => None,
@@ -107,35 +113,35 @@ fn answer(
     methods
         .iter()
         .map(|method| {
-            let record = match &mounted {
-                Some((trial, mounting)) => trial.answer(*method, &scene.frame, seed, mounting)?,
-                None => method.answer(&scene.frame, seed)?,
+            let answer = match &mounted {
+                Some((trial, mounting)) => trial.answer(*method, &frame, seed, mounting)?,
+                None => method.answer(&frame, seed)?,
             };
-            let picks = record.picks;
-            let matched = match_picks(&scene.truth.apples, &picks);
+            let answers = answer.apples;
+            let matched = match_answers(&scene.truth.apples, &answers);
             let rows = scene
                 .truth
                 .apples
                 .iter()
                 .zip(&matched)
-                .map(|(apple, pick)| {
-                    let pick = pick.map(|p| &picks[p]);
-                    let base = mounted.as_ref().zip(pick);
+                .map(|(apple, answer)| {
+                    let answer = answer.map(|i| &answers[i]);
+                    let base = mounted.as_ref().zip(answer);
                     AppleRow {
-                        base: base.and_then(|((_, m), pick)| BaseRow::of(m, apple, pick)),
+                        base: base.and_then(|((_, m), answer)| BaseRow::of(m, apple, answer)),
                         ..AppleRow::new(
                             &subject.suite,
                             &subject.name,
                             number,
                             method.name(),
                             apple,
-                            pick,
+                            answer,
                         )
                     }
                 });
             Ok(Answered {
                 rows: rows.collect(),
-                stray: picks.len() - matched.iter().flatten().count(),
+                stray: answers.len() - matched.iter().flatten().count(),
             })
         })
         .collect()

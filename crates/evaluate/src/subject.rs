@@ -1,4 +1,4 @@
-use crate::EvaluateError;
+use crate::error::EvaluateError;
 use pomona_cloud::Frame;
 use pomona_scenes::{Case, Orientation, Scene, Suite, TRUTH_FILE, Truth};
 use std::path::{Path, PathBuf};

@@ -5,9 +5,10 @@
 #[path = "../tests/fusion/orchard_views.rs"]
 mod orchard_views;
 
-use nalgebra::{Point3, Vector3};
+use nalgebra::Vector3;
 use orchard_views::{Views, views};
-use pomona_fusion::{FusedApple, FusionConfig, PosedRecord, fuse};
+use pomona_fusion::{FusedApple, FusionConfig, PosedAnswer, fuse};
+use pomona_transforms::{Direction, RobotFrame};
 
 /// Errors of the apples that several frames show.
 #[derive(Default)]
@@ -34,18 +35,17 @@ impl Errors {
         views: &Views,
         apple: usize,
         center: Vector3<f64>,
-        direction: Option<[f64; 3]>,
+        direction: Option<Direction<RobotFrame>>,
     ) {
         self.centers.push((center - views.centers[apple]).norm());
         if let Some((d, truth)) = direction.zip(views.directions[apple]) {
-            self.directions
-                .push(Vector3::from(d).angle(&truth).to_degrees());
+            self.directions.push(d.vector().angle(&truth).to_degrees());
         }
     }
 }
 
 fn nearest(views: &Views, apple: &FusedApple) -> Option<usize> {
-    let center = Vector3::from(apple.center);
+    let center = apple.center.position.point().coords;
     (0..views.centers.len())
         .filter(|&i| (views.centers[i] - center).norm() < 0.03)
         .min_by(|&a, &b| {
@@ -63,31 +63,28 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut split = 0;
     for seed in first..first + scenes {
         let views = views(seed);
-        let posed: Vec<PosedRecord<'_>> = views
+        let posed: Vec<PosedAnswer<'_>> = views
             .frames
             .iter()
-            .map(|(record, robot_from_camera)| PosedRecord {
-                record,
-                robot_from_camera,
-            })
+            .map(|(answer, robot_from_camera)| PosedAnswer::new(answer, robot_from_camera))
             .collect();
-        let fusion = fuse(&posed, &FusionConfig::default())?;
+        let tree = fuse(&posed, &FusionConfig::default())?;
         let mut known = vec![0; views.centers.len()];
-        for apple in &fusion.record.apples {
+        for apple in &tree.apples {
             apples += 1;
-            if let Some(movement) = &apple.moved {
+            if let Some(movement) = &apple.movement {
                 moved += 1;
                 println!(
                     "scene {seed}: moved {:.1} ± {:.1} mm: {}",
-                    movement.distance * 1e3,
-                    movement.sd * 1e3,
+                    movement.by.norm() * 1e3,
+                    movement.sd_m * 1e3,
                     apple.reason
                 );
-                for s in &apple.sightings {
-                    let own = views.frames[s.frame].0.picks[s.pick].apple.as_ref();
-                    let radius = own.map_or(0.0, |a| a.radius);
+                for s in &apple.observations {
+                    let own = views.frames[s.frame].0.apples[s.pick].apple.as_ref();
+                    let radius = own.map_or(0.0, |a| a.radius_m);
                     let visible = own.and_then(|a| a.visible_share).unwrap_or(0.0);
-                    let sd = own.and_then(|a| a.radius_sd).unwrap_or(0.0);
+                    let sd = own.and_then(|a| a.radius_sd_m).unwrap_or(0.0);
                     println!(
                         "  frame {}: radius {radius:.4} ± {sd:.4}, visible {visible:.2}",
                         s.frame
@@ -100,19 +97,24 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                 continue;
             };
             known[truth] += 1;
-            if apple.sightings.len() < 2 {
+            if apple.observations.len() < 2 {
                 continue;
             }
             shared += 1;
-            fused.add(&views, truth, Vector3::from(apple.center), apple.direction);
-            for s in &apple.sightings {
-                let (record, pose) = &views.frames[s.frame];
-                let pick = &record.picks[s.pick];
-                let Some(own) = &pick.apple else { continue };
-                let center = pose.transform.isometry() * Point3::from(own.center);
-                let direction = pick
-                    .direction
-                    .map(|d| (pose.transform.rotation() * Vector3::from(d)).into());
+            fused.add(
+                &views,
+                truth,
+                apple.center.position.point().coords,
+                apple.direction.map(|d| d.direction),
+            );
+            for s in &apple.observations {
+                let (answer, pose) = &views.frames[s.frame];
+                let own = &answer.apples[s.pick];
+                let Some(apple) = &own.apple else { continue };
+                let center = pose.transform.position(&apple.center).point();
+                let direction = own
+                    .pick
+                    .map(|pick| pose.transform.direction(&pick.direction));
                 single.add(&views, truth, center.coords, direction);
             }
         }

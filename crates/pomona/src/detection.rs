@@ -1,62 +1,55 @@
 //! From a frame to the boxes of its apples: a detector's, checked and joined by depth.
 
 mod appearance;
+mod candidate;
+mod depth_check;
+mod grid_readings;
 mod joining;
-mod look;
-mod record;
+mod mark;
+mod origin;
 mod roundness;
-mod samples;
 mod search;
-mod settings;
+mod summary;
 
-pub use look::Mark;
-pub use record::{DetectionRecord, DetectionTiming, FoundBy, FoundRecord};
-pub use settings::DetectionConfig;
+pub use candidate::DetectedBox;
+pub use mark::Mark;
+pub use origin::{BoxOrigin, FoundBy};
+pub use summary::{DetectionSummary, DetectionTimes};
 
-use crate::robust::Optics;
+use crate::config::Config;
+use crate::error::PickError;
+use crate::frame::CheckedFrame;
 use crate::seed::apple_rng;
-use crate::{Config, PickError};
+use candidate::{Candidate, SEED};
+use depth_check::DepthChecker;
+use grid_readings::GridReadings;
 use joining::join;
-use look::{Look, Looker};
-use pomona_cloud::{ColorImage, Frame, PixelBox};
+use pomona_cloud::{ColorImage, PixelBox};
 use pomona_detect::{Detection, Detector};
-use pomona_geometry::Sphere;
 use rayon::prelude::*;
+
 use search::search;
 use std::time::Instant;
 
-/// Seed of the draws of all checks: a box is judged alike in every run.
-const SEED: u64 = 0x6465_7465_6374;
-
-/// A box in which an apple was looked for and may have been found.
-#[derive(Clone, Debug, PartialEq)]
-pub struct FoundBox {
-    /// The box. Its name is the detection's number, best first; `2+5` for joined ones, `d0` for one found in depth.
-    pub bounds: PixelBox,
-    /// How it was found and what depth says about it.
-    pub found: FoundRecord,
-    /// The sphere that its depth shows, metres in the camera's frame; absent where it shows none.
-    pub sphere: Option<Sphere>,
-}
-
 /// The boxes of a frame's apples, and what found them.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Found {
+#[non_exhaustive]
+pub struct DetectedApples {
     /// Those of the colour image, best first, then those that only depth shows.
-    pub boxes: Vec<FoundBox>,
-    /// What `picks.json` says of the detection.
-    pub record: DetectionRecord,
+    pub boxes: Vec<DetectedBox>,
+    /// The detector, and what became of its boxes.
+    pub summary: DetectionSummary,
 }
 
-impl Found {
+impl DetectedApples {
     /// The boxes alone, as box files hold them: those that depth gives no reason to doubt.
     pub fn plausible(&self) -> impl Iterator<Item = &PixelBox> {
-        let plausible = |b: &&FoundBox| b.found.mark == Mark::Plausible;
+        let plausible = |b: &&DetectedBox| b.origin.mark == Mark::Plausible;
         self.boxes.iter().filter(plausible).map(|b| &b.bounds)
     }
 }
 
-/// Finds the apples of `frame`: what `detector` sees in the colour image, each box looked at in depth.
+/// Finds the apples of `frame`: what `detector` sees in the colour image, each box checked against depth.
 ///
 /// A box keeps its place and gets a [`Mark`]; boxes that show one apple are joined into their hull, with the
 /// best of their scores. With [`DetectionConfig::depth_search`], apples that the colour misses are looked for among
@@ -65,16 +58,13 @@ impl Found {
 ///
 /// # Errors
 ///
-/// [`PickError::Frame`] where the frame's parts contradict each other, [`PickError::Detect`] where the detector fails.
+/// [`PickError::Detect`] where the detector fails.
 pub fn find_apples(
-    frame: &Frame,
+    frame: &CheckedFrame<'_>,
     detector: &dyn Detector,
     config: &Config,
-) -> Result<Found, PickError> {
-    frame.validate().map_err(|source| PickError::Frame {
-        frame: frame.id.clone(),
-        source: Box::new(source),
-    })?;
+) -> Result<DetectedApples, PickError> {
+    let (projection, frame) = (frame.projection(), frame.frame());
     let start = Instant::now();
     let detections = detector
         .detect(&frame.color)
@@ -82,74 +72,49 @@ pub fn find_apples(
             frame: frame.id.clone(),
             source: Box::new(source),
         })?;
-    let mut record = DetectionRecord::of(&detector.report());
-    record.timing_ms.detector = milliseconds(start);
-    record.detections = detections.len();
+    let mut summary = DetectionSummary {
+        detector: detector.report(),
+        detections: detections.len(),
+        ..DetectionSummary::default()
+    };
+    summary.times.detector = start.elapsed();
 
     let start = Instant::now();
-    let bounds = named(&detections, &frame.color);
-    let Some(optics) = Optics::new(&frame.camera) else {
-        // Frame::validate has computed with the lens.
-        return Ok(Found {
-            boxes: Vec::new(),
-            record,
-        });
-    };
-    let looker = Looker::new(&frame.depth, &optics, config);
-    let candidates: Vec<Candidate> = bounds
+    let checker = DepthChecker::new(&frame.depth, projection, config);
+    let candidates: Vec<Candidate> = named(&detections, &frame.color)
         .into_par_iter()
         .enumerate()
-        .map_init(Default::default, |samples, (i, bounds)| {
+        .map_init(GridReadings::default, |readings, (i, bounds)| {
             let mut rng = apple_rng(SEED, &frame.id, i);
-            let look = looker.look(&bounds, &mut rng, samples);
-            Candidate::new(bounds, FoundBy::Color, look)
+            let check = checker.check(&bounds, &mut rng, readings);
+            Candidate::new(bounds, FoundBy::Color, check, &checker, readings)
         })
         .collect();
-    let mut candidates = join(candidates, &looker, &frame.id);
-    record.timing_ms.depth_check = milliseconds(start);
+    let mut candidates = join(candidates, &checker, &frame.id);
+    summary.times.depth_check = start.elapsed();
 
     if config.detection.depth_search {
         let start = Instant::now();
-        let more = search(frame, &looker, &candidates);
+        let more = search(frame, &checker, &candidates);
         candidates.extend(more);
-        record.timing_ms.depth_search = Some(milliseconds(start));
+        summary.times.depth_search = Some(start.elapsed());
     }
-    record.count(&candidates);
+    count(&mut summary, &candidates);
     let boxes = candidates.into_iter().map(Candidate::finish).collect();
-    Ok(Found { boxes, record })
+    Ok(DetectedApples { boxes, summary })
 }
 
-/// A box and what depth says about it.
-#[derive(Clone, Debug)]
-struct Candidate {
-    bounds: PixelBox,
-    found_by: FoundBy,
-    look: Look,
-    /// Detections that were joined in it.
-    parts: usize,
-}
-
-impl Candidate {
-    fn new(bounds: PixelBox, found_by: FoundBy, look: Look) -> Self {
-        Self {
-            bounds,
-            found_by,
-            look,
-            parts: 1,
-        }
-    }
-
-    fn finish(self) -> FoundBox {
-        FoundBox {
-            bounds: self.bounds,
-            found: FoundRecord {
-                found_by: self.found_by,
-                mark: self.look.mark,
-                merged: (self.parts > 1).then_some(self.parts),
-            },
-            sphere: self.look.sphere,
-        }
-    }
+/// Counts what became of the boxes.
+fn count(summary: &mut DetectionSummary, candidates: &[Candidate]) {
+    let number = |wanted: &dyn Fn(&Candidate) -> bool| {
+        candidates
+            .iter()
+            .filter(|candidate| wanted(candidate))
+            .count()
+    };
+    summary.merged = candidates.iter().map(|c| c.parts - 1).sum();
+    summary.marked = number(&|c| c.check.mark.refuses());
+    summary.by_depth = number(&|c| c.found_by == FoundBy::Depth);
 }
 
 /// The detections as boxes of the image, named by their number; what holds no pixel is left out.
@@ -166,10 +131,6 @@ fn named(detections: &[Detection], image: &ColorImage) -> Vec<PixelBox> {
     boxes
         .filter(|b| b.validate(image.width, image.height).is_ok())
         .collect()
-}
-
-fn milliseconds(since: Instant) -> f64 {
-    since.elapsed().as_secs_f64() * 1e3
 }
 
 #[cfg(test)]

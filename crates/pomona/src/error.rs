@@ -31,7 +31,7 @@ pub enum PickError {
     },
     /// A setting makes no sense.
     #[error(transparent)]
-    Config(#[from] crate::ConfigError),
+    Config(#[from] pomona_settings::ConfigError),
     /// The transform starts in another frame than the camera's.
     #[error(
         "frame '{frame}' was taken in '{camera}', but the transform starts in '{from}': \

@@ -1,11 +1,13 @@
 //! A direction for an apple whose branch is not known, where one is asked for.
 
-use crate::surroundings::window_of;
-use crate::{Evidence, Pick};
-use nalgebra::{Point3, Vector3};
-use pomona_cloud::{DepthPoints, Frame};
+use crate::config::FallbackKind;
+use crate::frame::CheckedFrame;
+use crate::optics::window_of_sphere;
+use crate::outcome::{DirectionSource, FallbackDirection, FittedApple, unit};
+use nalgebra::Vector3;
+use pomona_cloud::DepthPoints;
 use pomona_geometry::Sphere;
-use serde::{Deserialize, Serialize};
+use pomona_transforms::{CameraFrame, Direction};
 
 /// How far from the centre obstacles count, radii.
 const REACH: f64 = 3.0;
@@ -14,94 +16,57 @@ const SURFACE: (f64, f64) = (1.15, 0.003);
 /// Points that make the nearest obstacle: fewer are flying pixels.
 const OBSTACLE_POINTS: usize = 12;
 
-/// Settings of what is given in place of a direction that is refused.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct FallbackConfig {
-    /// `none`, `surface_normal` or `away_from_obstacle`. Default none. Others give refused apples with a sphere
-    /// a way to come in, labelled as such; the apple stays refused.
-    pub kind: FallbackKind,
-}
-
-/// What is given in place of a direction that is refused.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-#[non_exhaustive]
-pub enum FallbackKind {
-    /// Nothing.
-    #[default]
-    None,
-    /// Against the mean normal of the visible cap: from the side that shows, into the apple.
-    SurfaceNormal,
-    /// From the side that faces away from the nearest obstacle, towards it; where nothing is near, as `SurfaceNormal`.
-    AwayFromObstacle,
-}
-
-/// Where a direction that is no branch's comes from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-#[non_exhaustive]
-pub enum DirectionSource {
-    /// The mean normal of the visible cap.
-    SurfaceNormal,
-    /// The nearest obstacle.
-    AwayFromObstacle,
-}
-
-impl DirectionSource {
-    /// Its name in `picks.json`.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::SurfaceNormal => "surface_normal",
-            Self::AwayFromObstacle => "away_from_obstacle",
-        }
-    }
-}
-
-/// Direction and source for a pick that has a sphere and no direction; `surface` of the evidence are the pixels of its cap.
+/// Fallback direction for a refused apple with a sphere; `surface` are the pixels of its visible cap.
 ///
-/// `None` for a pick without a sphere, for an apple at the camera, and where the frame's parts contradict each other.
+/// `None` where none is asked for, and for an apple at the camera.
 pub(crate) fn direction(
     kind: FallbackKind,
-    frame: &Frame,
-    pick: &Pick,
-    evidence: &Evidence,
+    frame: &CheckedFrame<'_>,
+    apple: &FittedApple,
+    surface: &[u32],
     points: &mut DepthPoints,
-) -> Option<(Vector3<f64>, DirectionSource)> {
+) -> Option<FallbackDirection> {
     if kind == FallbackKind::None {
         return None;
     }
-    let apple = pick.apple.as_ref()?;
-    let sphere = Sphere::new(Point3::from(apple.center), apple.radius)?;
+    let sphere = Sphere::new(apple.center.point(), apple.radius_m)?;
     let reach = Sphere {
         radius: REACH * sphere.radius,
         ..sphere
     };
-    let (width, height) = (frame.depth.width, frame.depth.height);
-    let window = window_of(&reach, &frame.camera, width, height);
-    points.fill(&frame.depth, &frame.camera, window).ok()?;
+    let (width, height) = frame.size();
+    let window = window_of_sphere(&reach, &frame.frame().camera, width, height);
+    frame.copy_points(window, points);
     if kind == FallbackKind::AwayFromObstacle
         && let Some(direction) = to_obstacle(&sphere, points)
     {
-        return Some((direction, DirectionSource::AwayFromObstacle));
+        let source = DirectionSource::AwayFromObstacle;
+        return Some(FallbackDirection::new(direction, source));
     }
-    let mut surface = evidence.surface.clone();
+    let mut surface = surface.to_vec();
     surface.sort_unstable();
     let direction = into_cap(&sphere, &surface, points)?;
-    Some((direction, DirectionSource::SurfaceNormal))
+    Some(FallbackDirection::new(
+        direction,
+        DirectionSource::SurfaceNormal,
+    ))
 }
 
 /// Against the mean of the outward normals of the cap's points; along the line of sight where there are none.
-fn into_cap(sphere: &Sphere, surface: &[u32], points: &DepthPoints) -> Option<Vector3<f64>> {
+fn into_cap(
+    sphere: &Sphere,
+    surface: &[u32],
+    points: &DepthPoints,
+) -> Option<Direction<CameraFrame>> {
     let of_cap = (0..points.len()).filter(|&i| surface.binary_search(&points.pixel[i]).is_ok());
     let normals = of_cap.filter_map(|i| (points.point(i) - sphere.center).try_normalize(1e-9));
     let sum: Vector3<f64> = normals.sum();
-    let sight = sphere.center.coords.try_normalize(1e-9)?;
-    Some((-sum).try_normalize(1e-6).unwrap_or(sight))
+    let sight = unit(sphere.center.coords, 1e-9)?;
+    Some(unit(-sum, 1e-6).unwrap_or(sight))
 }
 
 /// Towards the mean of the nearest points that are not the apple's; `None` where there are too few.
-fn to_obstacle(sphere: &Sphere, points: &DepthPoints) -> Option<Vector3<f64>> {
+fn to_obstacle(sphere: &Sphere, points: &DepthPoints) -> Option<Direction<CameraFrame>> {
     let from = SURFACE.0 * sphere.radius + SURFACE.1;
     let to = REACH * sphere.radius;
     let mut near: Vec<(f64, usize)> = (0..points.len())
@@ -115,13 +80,13 @@ fn to_obstacle(sphere: &Sphere, points: &DepthPoints) -> Option<Vector3<f64>> {
     let ways = near
         .iter()
         .take(OBSTACLE_POINTS)
-        .filter_map(|&(_, i)| (points.point(i) - sphere.center).try_normalize(1e-9));
-    let ways: Vec<Vector3<f64>> = ways.collect();
-    let sum: Vector3<f64> = ways.iter().sum();
+        .filter_map(|&(_, i)| unit(points.point(i) - sphere.center, 1e-9));
+    let ways: Vec<Direction<CameraFrame>> = ways.collect();
+    let sum: Vector3<f64> = ways.iter().map(Direction::vector).sum();
     // Points all around make no side: then the nearest one counts.
     let mean = sum / ways.len().max(1) as f64;
     if mean.norm() > 0.5 {
-        mean.try_normalize(1e-9)
+        unit(mean, 1e-9)
     } else {
         ways.first().copied()
     }

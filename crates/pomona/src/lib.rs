@@ -1,7 +1,7 @@
 //! How to pick each apple of an RGB-D frame: the pipeline that other programs add.
 //!
 //! ```
-//! use pomona::{Config, Picker};
+//! use pomona::{CheckedFrame, Config, Picker};
 //! use pomona_scenes::Suite;
 //!
 //! // A frame of one apple below a branch; `Frame::read` takes one from a folder.
@@ -9,31 +9,34 @@
 //! let scene = case.scene();
 //!
 //! let picker = Picker::new(Config::default())?;
-//! let outcome = picker.pick(&scene.frame, 0, None)?;
+//! let answer = picker.pick(&CheckedFrame::new(&scene.frame)?, 0, None)?;
 //!
-//! let pick = &outcome.record.picks[0];
-//! assert_eq!(pick.status, pomona::Status::Picked);
-//! let [_, y, _] = pick.direction.unwrap();
-//! assert!(y < -0.9, "the branch is above the apple, and y points down");
+//! let apple = &answer.apples[0];
+//! assert_eq!(apple.status, pomona::Status::Picked);
+//! let direction = apple.pick.unwrap().direction.vector();
+//! assert!(direction.y < -0.9, "the branch is above the apple, and y points down");
 //! # Ok::<(), pomona::PickError>(())
 //! ```
 //!
 //! # Concepts
 //!
-//! - A [`Picker`] holds a checked [`Config`] and turns a frame into an [`Outcome`]: the
-//!   [`Record`] that `picks.json` holds, and beside it the [`Evidence`] of each apple (the
-//!   pixels of its surface and of its branch) for pictures.
-//! - Each apple is worked on by itself, so the apples of a frame run in parallel;
+//! - A [`CheckedFrame`] is a frame whose images, camera and boxes fit together. It is made once and passed
+//!   to every stage; its depth image is deprojected at most once.
+//! - A [`Picker`] holds a checked [`Config`] and turns a frame into a [`FrameAnswer`]: for each box an
+//!   [`AppleAnswer`] with the fitted apple, its branch, the direction, and the [`Evidence`] (the pixels of
+//!   surface and branch) for pictures. Positions, directions and covariances carry their coordinate frame as a type.
+//! - [`record`] is the form of `picks.json`: made from the answers when they are written, read by no stage.
+//! - Apples are independent of each other, so those of a frame run in parallel;
 //!   the random numbers of one depend on (run seed, frame, apple) and nothing else.
 //! - [`find_apples`] finds the boxes where a frame has none: a `pomona_detect::Detector` sees them in the colour
 //!   image, depth marks those that show no apple and joins those that show the same one, and
-//!   [`Picker::pick_found`] takes it from there.
-//! - An apple without an answer is no error: it has a [`Status`] that says why, and what is
-//!   known stays in its record. Asked for in [`FallbackConfig`], a labelled way to come in stands beside the refusal.
-//! - A [`Robot`], where there is one, plans from an outcome how its gripper gets to each apple and in
-//!   which order, and adds that to the record.
+//!   [`Picker::pick_detected`] takes it from there.
+//! - An apple without a direction is no error: it has a [`Status`] that says why, and what is
+//!   known stays in its answer. [`FallbackConfig`] adds a labelled fallback direction on request.
+//! - A [`Robot`], where there is one, plans how its gripper gets to each apple and in which order, and adds
+//!   an [`ApplePlan`] to each answer.
 //! - Two methods are chosen by name: `paper` ([`PaperConfig`]), Gao et al. 2022, and `robust`
-//!   ([`RobustConfig`]), ours, whose answers say how sure they are.
+//!   ([`RobustConfig`]), ours, whose answers state their confidence.
 //!
 //! # Frames and units
 //!
@@ -54,33 +57,32 @@ mod config;
 mod detection;
 mod error;
 mod fallback;
-mod fusion_config;
+mod frame;
+mod optics;
+mod outcome;
 mod paper;
 mod picker;
-mod plan_record;
-mod record;
+pub mod record;
 mod robot;
 mod robust;
 mod seed;
-mod surroundings;
 
-pub use config::{Config, ConfigError, Method, PaperConfig};
+pub use config::{
+    Config, DetectionConfig, FallbackConfig, FallbackKind, FruitConfig, FusionConfig, Method,
+    PaperConfig, RobustConfig, SensorPreset,
+};
 pub use detection::{
-    DetectionConfig, DetectionRecord, DetectionTiming, Found, FoundBox, FoundBy, FoundRecord, Mark,
+    BoxOrigin, DetectedApples, DetectedBox, DetectionSummary, DetectionTimes, FoundBy, Mark,
     find_apples,
 };
 pub use error::PickError;
-pub use fallback::{DirectionSource, FallbackConfig, FallbackKind};
-pub use fusion_config::FusionConfig;
-pub use picker::{Evidence, Outcome, Picker, RobotFromCamera};
-pub use plan_record::{
-    ApproachRecord, ClearanceRecord, GripperRecord, OrderRecord, PathRecord, PieceRecord,
-    PlanRecord, PoseRecord, SampleRecord, WayRecord,
+pub use frame::CheckedFrame;
+pub use outcome::{
+    AppleAnswer, ApplePlan, BranchCandidate, DirectionSource, Evidence, FallbackDirection,
+    FittedApple, FittedBranch, FrameAnswer, NearestObstacle, PickDirection, PlannedApproach,
+    PlannedTurn, RobotFromCamera, RobotTarget, StageTimes, Status,
 };
-pub use pomona_approach::{ApproachConfig, COMMENTED_DEFAULTS as ROBOT_DEFAULTS, Gripper};
-pub use record::{
-    AppleRecord, BoxRecord, BranchRecord, CandidateRecord, FallbackRecord, FrameRecord, Pick,
-    Record, RobotRecord, SCHEMA, Status, TimingRecord,
-};
+pub use picker::Picker;
+pub use pomona_approach::{ApproachConfig, Gripper};
+pub use pomona_settings::ConfigError;
 pub use robot::{Robot, RobotPlan};
-pub use robust::{RobustConfig, SensorPreset};

@@ -9,24 +9,23 @@ mod branch;
 mod confidence;
 mod contour;
 mod lines;
-mod patch;
-mod sensor;
-mod settings;
+mod ray;
 mod shell;
 mod sphere;
 mod strips;
 mod view;
 mod walk;
 
-pub(crate) use patch::Optics;
-pub(crate) use sensor::Noise;
-pub use sensor::SensorPreset;
-pub use settings::RobustConfig;
-
-use crate::{AppleRecord, BranchRecord, CandidateRecord, Evidence, Pick, Status};
-use apple::{AppleBuffers, AppleSearch, Found, MARGIN_PX};
+use crate::config::{Config, RobustConfig};
+use crate::frame::CheckedFrame;
+use crate::optics::{DepthNoise, window_of_box};
+use crate::outcome::{
+    AppleAnswer, BranchCandidate, FittedApple, FittedBranch, PickDirection, Status,
+};
+use apple::{AppleBuffers, AppleSearch, MARGIN_PX, SeenApple};
 use branch::{Candidate, Search};
-use pomona_cloud::{Frame, PixelWindow};
+use pomona_cloud::{PixelBox, PixelWindow};
+use pomona_transforms::{Direction, Position, PositionCovariance};
 use rand_chacha::ChaCha8Rng;
 use shell::{APPLE, Shell};
 use std::time::Instant;
@@ -43,131 +42,151 @@ pub(crate) struct Scratch {
     slices: Vec<(f64, Slice)>,
 }
 
-fn milliseconds(since: Instant) -> f64 {
-    since.elapsed().as_secs_f64() * 1e3
-}
-
-/// Fills in what the method finds for one apple, and says how it ended.
+/// Answers one box, stage by stage. `scratch` is memory that serves one apple after another.
 pub(crate) fn pick_apple(
-    frame: &Frame,
-    config: &RobustConfig,
+    frame: &CheckedFrame<'_>,
+    config: &Config,
+    id: usize,
+    bounds: PixelBox,
     rng: &mut ChaCha8Rng,
     scratch: &mut Scratch,
-    pick: &mut Pick,
-    evidence: &mut Evidence,
-) -> Status {
-    let Some(optics) = Optics::new(&frame.camera) else {
-        return Status::NoDepth;
-    };
-    let noise = config.noise();
+) -> AppleAnswer {
+    let mut answer = AppleAnswer::new(id, bounds, Status::Picked);
+    let (width, height) = frame.size();
+    let window = window_of_box(&answer.bounds, width, height);
+    let found = find_apple(frame, config, window, rng, &mut scratch.apple, &mut answer)
+        .and_then(|apple| find_branch(frame, &config.robust, window, &apple, scratch, &mut answer));
+    if let Err(status) = found {
+        answer.status = status;
+    }
+    answer
+}
+
+/// Fits the body of the apple whose box is `window`.
+fn find_apple(
+    frame: &CheckedFrame<'_>,
+    config: &Config,
+    window: PixelWindow,
+    rng: &mut ChaCha8Rng,
+    buffers: &mut AppleBuffers,
+    answer: &mut AppleAnswer,
+) -> Result<SeenApple, Status> {
     let start = Instant::now();
-    let (width, height) = (frame.depth.width, frame.depth.height);
-    let b = &pick.pixel_box;
-    let window = PixelWindow::clamped(b.x_min, b.y_min, b.x_max, b.y_max, width, height);
+    let (width, height) = frame.size();
     let around = window.grown(MARGIN_PX, width, height);
-    scratch.apple.patch.fill(&frame.depth, &optics, around);
-    pick.timing_ms.crop = milliseconds(start);
+    let projection = frame.projection();
+    buffers.patch.fill(&frame.frame().depth, projection, around);
+    answer.times.crop = start.elapsed();
 
     let start = Instant::now();
     let search = AppleSearch {
-        config,
-        optics: &optics,
-        noise,
-        bounds: b,
+        config: &config.robust,
+        fruit: &config.fruit,
+        projection,
+        noise: DepthNoise::of(&config.robust),
+        bounds: &answer.bounds,
         window,
     };
-    let found = search.fit(rng, &mut scratch.apple);
-    pick.timing_ms.sphere = milliseconds(start);
-    let found = match found {
-        Ok(found) => found,
-        Err(status) => return status,
-    };
-    pick.apple = Some(apple_record(&found));
+    let found = search.fit(rng, buffers);
+    answer.times.sphere = start.elapsed();
+    found
+}
 
+/// Adds the apple to the answer, and its branch and direction where one is sure enough.
+fn find_branch(
+    frame: &CheckedFrame<'_>,
+    config: &RobustConfig,
+    window: PixelWindow,
+    found: &SeenApple,
+    scratch: &mut Scratch,
+    answer: &mut AppleAnswer,
+) -> Result<(), Status> {
     let start = Instant::now();
+    let noise = DepthNoise::of(config);
     let body = found.fit.body;
     let apple = body.sphere();
     let reach = (config.branch_reach + SHELL_MARGIN) * apple.radius;
     let shell = &mut scratch.shell;
-    shell.fill(&frame.depth, &optics, &body, reach, noise);
-    evidence.surface = shell.pixels_of(APPLE);
+    let projection = frame.projection();
+    shell.fill(&frame.frame().depth, projection, &body, reach, noise);
+    let inliers = shell.surface_count(&body, window, noise);
+    answer.apple = Some(fitted_apple(found, inliers));
+    answer.evidence.surface = shell.pixels_of(APPLE);
     let search = Search {
         shell,
-        optics: &optics,
+        projection,
         apple,
         sigma: noise.sigma(apple.center.z),
         config,
     };
     let ranked = search.candidates(&mut scratch.slices);
-    pick.candidates = ranked.iter().map(candidate_record).collect();
-    let status = answer(&found, &ranked, config, pick);
-    if status == Status::Picked
-        && let Some(best) = ranked.first()
-    {
-        search.pixels(best, &mut scratch.slices, &mut evidence.branch);
+    answer.candidates = ranked.iter().map(branch_candidate).collect();
+    let decided = decide(found, &ranked, config, answer);
+    match (&decided, ranked.first()) {
+        (Ok(()), Some(best)) => {
+            search.pixels(best, &mut scratch.slices, &mut answer.evidence.branch);
+        }
+        _ => answer.view_from = view::clearest(shell, &apple),
     }
-    if status != Status::Picked {
-        pick.view_from = view::clearest(shell, &apple).map(Into::into);
-    }
-    pick.timing_ms.branch = milliseconds(start);
-    status
+    answer.times.branch = start.elapsed();
+    decided
 }
 
-/// Fills in the branch and, where it is sure enough, the direction.
-fn answer(found: &Found, ranked: &[Candidate], config: &RobustConfig, pick: &mut Pick) -> Status {
+/// Adds the branch and, where it is sure enough, the direction.
+fn decide(
+    found: &SeenApple,
+    ranked: &[Candidate],
+    config: &RobustConfig,
+    answer: &mut AppleAnswer,
+) -> Result<(), Status> {
     let Some(best) = ranked.first() else {
-        return confidence::without_candidate(found);
+        return Err(confidence::without_candidate(found));
     };
-    let apple = found.fit.body.sphere();
+    let center = Position::new(found.fit.body.center);
     let sd = (found.fit.covariance.trace() / 3.0)
         .sqrt()
         .hypot(best.foot_sd)
         / best.distance.max(1e-3);
     let confidence = confidence::confidence(found, ranked);
-    pick.confidence = Some(confidence);
-    pick.branch = Some(BranchRecord {
-        point: best.foot.into(),
-        direction: best.tangent.into(),
-        inliers: best.tally.pixels,
-        rms: best.rms,
-    });
+    answer.confidence = Some(confidence);
+    let foot = Position::new(best.foot);
+    answer.branch = Some(FittedBranch::new(
+        foot,
+        Direction::from_unit(best.tangent),
+        best.tally.pixels,
+        best.rms,
+    ));
     if confidence < config.least_confidence {
-        return confidence::refusal(found, ranked);
+        return Err(confidence::refusal(found, ranked));
     }
-    let Some(direction) = (best.foot - apple.center).try_normalize(1e-9) else {
-        return Status::NoBranch;
-    };
-    pick.direction_sd = Some(sd);
-    pick.foot = Some(best.foot.into());
-    pick.direction = Some(direction.into());
-    Status::Picked
+    let pick = PickDirection::new(&center, foot).ok_or(Status::NoBranch)?;
+    answer.pick = Some(PickDirection {
+        sd_rad: Some(sd),
+        ..pick
+    });
+    Ok(())
 }
 
-fn apple_record(found: &Found) -> AppleRecord {
+fn fitted_apple(found: &SeenApple, inliers: usize) -> FittedApple {
     let fit = &found.fit;
-    AppleRecord {
-        center: fit.body.center.into(),
-        radius: fit.body.radius,
-        inliers: fit.weight as usize,
-        rms: fit.rms,
-        center_covariance: Some(fit.covariance.into()),
-        radius_sd: Some(fit.radius_sd),
+    let center = Position::new(fit.body.center);
+    FittedApple {
+        center_covariance: Some(PositionCovariance::new(fit.covariance)),
+        radius_sd_m: Some(fit.radius_sd),
         visible_share: Some(found.visible_share),
         agreement: Some(found.agreement),
+        ..FittedApple::new(center, fit.body.radius, inliers, fit.rms)
     }
 }
 
-fn candidate_record(c: &Candidate) -> CandidateRecord {
-    CandidateRecord {
-        foot: c.foot.into(),
-        tangent: c.tangent.into(),
-        radius: c.axis.radius,
-        distance: c.distance,
-        score: c.score,
-        shown: c.tally.shown,
-        shown_lesser_side: c.tally.shown_lesser_side,
-        odd: c.tally.odd,
-        empty: c.tally.empty,
-        hidden: c.tally.hidden,
+fn branch_candidate(c: &Candidate) -> BranchCandidate {
+    let (foot, tangent) = (Position::new(c.foot), Direction::from_unit(c.tangent));
+    BranchCandidate {
+        shown_m: c.tally.shown,
+        shown_lesser_side_m: c.tally.shown_lesser_side,
+        odd_m: c.tally.odd,
+        empty_m: c.tally.empty,
+        hidden_m: c.tally.hidden,
+        ..BranchCandidate::new(foot, tangent, c.axis.radius, c.distance, c.score)
     }
 }

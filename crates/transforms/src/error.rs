@@ -1,4 +1,5 @@
-use crate::json::{MAX_TRANSLATION_M, SCHEMA};
+use crate::schema::{MAX_TRANSLATION_M, SCHEMA};
+use pomona_files::FileError;
 use std::path::PathBuf;
 use thiserror::Error;
 
@@ -89,28 +90,26 @@ pub enum CovarianceError {
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum TransformFileError {
-    /// The operating system refused to read the file, for example because there is none.
-    #[error("{}: cannot be read: {source}; {}", .path.display(), read_remedy(.source))]
-    Read {
+    /// The operating system refused to read or write the file, for example because there is none.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// What the file holds, or was to hold, is no transform.
+    #[error("{}: {source}", .path.display())]
+    Content {
         /// The file.
         path: PathBuf,
-        /// What the system said.
-        source: std::io::Error,
+        /// What is wrong with it.
+        source: TransformContentError,
     },
-    /// The operating system refused to write the file.
-    #[error("{}: cannot be written: {source}; check that the folder exists, is writable and has room", .path.display())]
-    Write {
-        /// The file.
-        path: PathBuf,
-        /// What the system said.
-        source: std::io::Error,
-    },
-    /// The file is not JSON, or not of the schema's form: a field is unknown, missing, given
-    /// twice or of another type.
-    #[error("{}: line {line} column {column}: {problem}; {remedy}", .path.display())]
+}
+
+/// Why the content of a transform's file is no transform.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum TransformContentError {
+    /// It is not JSON, or not of the schema's form: a field is unknown, missing, given twice or of another type.
+    #[error("line {line} column {column}: {problem}; {remedy}")]
     Json {
-        /// The file.
-        path: PathBuf,
         /// Line, from 1.
         line: usize,
         /// Column, from 1; 0 where only the line is known.
@@ -120,44 +119,32 @@ pub enum TransformFileError {
         /// What to do about it.
         remedy: &'static str,
     },
-    /// The file is of another schema, or does not say of which.
+    /// It is of another schema, or does not say of which.
     #[error(
-        "{}: `schema` is {} but must be \"{SCHEMA}\"; give a transform's file, in that form",
-        .path.display(), .found.as_deref().unwrap_or("missing")
+        "`schema` is {} but must be \"{SCHEMA}\"; give a transform's file, in that form",
+        .found.as_deref().unwrap_or("missing")
     )]
     Schema {
-        /// The file.
-        path: PathBuf,
         /// What `schema` holds, as JSON; `None` where there is none.
         found: Option<String>,
     },
     /// A frame's id is empty.
-    #[error("{}: `{field}` is empty; name the frame, as the camera's or the robot's programs do", .path.display())]
+    #[error("`{field}` is empty; name the frame, as the camera's or the robot's programs do")]
     NoFrameId {
-        /// The file.
-        path: PathBuf,
         /// `to` or `from`.
         field: &'static str,
     },
-    /// The file gives no rotation, or no translation.
-    #[error(
-        "{}: there is no {part}; give `translation_m` and `quaternion_xyzw`, or `matrix`",
-        .path.display()
-    )]
+    /// There is no rotation, or no translation.
+    #[error("there is no {part}; give `translation_m` and `quaternion_xyzw`, or `matrix`")]
     MissingPart {
-        /// The file.
-        path: PathBuf,
         /// `rotation` or `translation`.
         part: &'static str,
     },
-    /// The file gives a rotation, or a translation, twice.
+    /// A rotation, or a translation, is given twice.
     #[error(
-        "{}: `{field}` and `matrix` both give the {part}; keep `translation_m` and `quaternion_xyzw`, or `matrix`",
-        .path.display()
+        "`{field}` and `matrix` both give the {part}; keep `translation_m` and `quaternion_xyzw`, or `matrix`"
     )]
     TwoForms {
-        /// The file.
-        path: PathBuf,
         /// `rotation` or `translation`.
         part: &'static str,
         /// The field beside `matrix`.
@@ -165,39 +152,18 @@ pub enum TransformFileError {
     },
     /// A translation so long that its unit is not metres.
     #[error(
-        "{}: the translation in `{field}` is {length_m:.1} m long, more than {MAX_TRANSLATION_M} m; give metres: it looks like millimetres",
-        .path.display()
+        "the translation in `{field}` is {length_m:.1} m long, more than {MAX_TRANSLATION_M} m; give metres: it looks like millimetres"
     )]
     TooFar {
-        /// The file.
-        path: PathBuf,
         /// The field that holds it.
         field: &'static str,
         /// Its length, taken as metres.
         length_m: f64,
     },
     /// The numbers are no covariance.
-    #[error("{}: {source}", .path.display())]
-    Covariance {
-        /// The file.
-        path: PathBuf,
-        /// What is wrong with them.
-        source: CovarianceError,
-    },
+    #[error(transparent)]
+    Covariance(#[from] CovarianceError),
     /// The numbers are no rigid transform.
-    #[error("{}: {source}", .path.display())]
-    Numbers {
-        /// The file.
-        path: PathBuf,
-        /// What is wrong with them.
-        source: TransformError,
-    },
-}
-
-fn read_remedy(source: &std::io::Error) -> &'static str {
-    match source.kind() {
-        std::io::ErrorKind::NotFound => "check the path",
-        std::io::ErrorKind::PermissionDenied => "check the file's permissions",
-        _ => "check that it is a plain, readable file",
-    }
+    #[error(transparent)]
+    Numbers(#[from] TransformError),
 }

@@ -1,20 +1,14 @@
-//! The form of a transform's file, and what may be wrong in it.
+//! A transform's file: JSON of our own schema.
 
+use crate::schema::{SCHEMA, excessive_length_m};
 use crate::{
-    CovarianceError, FrameTag, NamedTransform, Transform, TransformError, TransformFileError,
-    uncertain,
+    FrameTag, NamedTransform, Transform, TransformContentError, TransformFileError, uncertain,
 };
-use nalgebra::{Matrix4, Matrix6, Vector3};
+use nalgebra::{Matrix4, Matrix6};
+use pomona_files::write_atomically;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::path::Path;
-
-/// Name and version of the form of a transform's file.
-pub const SCHEMA: &str = "pomona.transform/1";
-
-/// The longest translation that a file may give, in metres: more than an arm on its platform
-/// spans, and less than the same in millimetres, taken for metres.
-pub const MAX_TRANSLATION_M: f64 = 100.0;
 
 const REMEDY: &str = "give schema, to, from, and translation_m [x, y, z] with quaternion_xyzw [x, y, z, w], or in their place matrix as four rows of four; and, if known, covariance (perturbation left, order rotation_translation, matrix as six rows of six); nothing else";
 const FINITE_REMEDY: &str = "give finite numbers: repeat the calibration, or copy its result again";
@@ -58,15 +52,51 @@ enum Order {
     RotationTranslation,
 }
 
-pub(crate) fn parse<To: FrameTag, From: FrameTag>(
+impl<To: FrameTag, From: FrameTag> NamedTransform<To, From> {
+    /// Reads a transform's file.
+    ///
+    /// The rotation may be rounded: a quaternion is normalised, and a matrix replaced by the
+    /// nearest rotation, where they are off by 1e-3 at most.
+    ///
+    /// # Errors
+    ///
+    /// [`TransformFileError::File`]; [`TransformFileError::Content`] for what is not JSON or not of the form above.
+    pub fn read(path: impl AsRef<Path>) -> Result<Self, TransformFileError> {
+        let path = path.as_ref();
+        let bytes = pomona_files::read(path)?;
+        parse(&bytes).map_err(|source| at(path, source))
+    }
+
+    /// Writes a transform's file, with translation and quaternion, w ≥ 0. The file appears as a
+    /// whole or not at all.
+    ///
+    /// # Errors
+    ///
+    /// [`TransformFileError::Content`] for what could not be read back; [`TransformFileError::File`].
+    pub fn write(&self, path: impl AsRef<Path>) -> Result<(), TransformFileError> {
+        let path = path.as_ref();
+        let text = format(self).map_err(|source| at(path, source))?;
+        write_atomically(path, text.as_bytes())?;
+        Ok(())
+    }
+}
+
+fn at(path: &Path, source: TransformContentError) -> TransformFileError {
+    TransformFileError::Content {
+        path: path.to_owned(),
+        source,
+    }
+}
+
+fn parse<To: FrameTag, From: FrameTag>(
     bytes: &[u8],
-) -> Result<NamedTransform<To, From>, Fault> {
-    let syntax = |e: serde_json::Error| Fault::json(&e, bytes);
+) -> Result<NamedTransform<To, From>, TransformContentError> {
+    let syntax = |e: serde_json::Error| json_error(&e, bytes);
     // The schema first: in a file of another one, its fields are not what is wrong.
     let value: Value = serde_json::from_slice(bytes).map_err(syntax)?;
     let found = value.get("schema");
     if found.is_none_or(|s| s != SCHEMA) {
-        return Err(Fault::Schema {
+        return Err(TransformContentError::Schema {
             found: found.map(Value::to_string),
         });
     }
@@ -84,9 +114,9 @@ pub(crate) fn parse<To: FrameTag, From: FrameTag>(
     Ok(named)
 }
 
-pub(crate) fn format<To: FrameTag, From: FrameTag>(
+fn format<To: FrameTag, From: FrameTag>(
     named: &NamedTransform<To, From>,
-) -> Result<String, Fault> {
+) -> Result<String, TransformContentError> {
     check(named, "translation_m")?;
     let document = Document {
         schema: SCHEMA.to_owned(),
@@ -109,18 +139,17 @@ pub(crate) fn format<To: FrameTag, From: FrameTag>(
 fn check<To: FrameTag, From: FrameTag>(
     named: &NamedTransform<To, From>,
     translation_field: &'static str,
-) -> Result<(), Fault> {
+) -> Result<(), TransformContentError> {
     for (field, id) in [("to", &named.to), ("from", &named.from)] {
         if id.trim().is_empty() {
-            return Err(Fault::NoFrameId { field });
+            return Err(TransformContentError::NoFrameId { field });
         }
     }
     if let Some(covariance) = &named.covariance {
-        uncertain::check(covariance).map_err(Fault::Covariance)?;
+        uncertain::check(covariance)?;
     }
-    let length_m = length(&named.transform.translation_m());
-    if !(length_m <= MAX_TRANSLATION_M) {
-        return Err(Fault::TooFar {
+    if let Some(length_m) = excessive_length_m(&named.transform.translation_m()) {
+        return Err(TransformContentError::TooFar {
             field: translation_field,
             length_m,
         });
@@ -128,16 +157,11 @@ fn check<To: FrameTag, From: FrameTag>(
     Ok(())
 }
 
-/// Finite wherever the length itself is, also where squares are not.
-fn length(v: &Vector3<f64>) -> f64 {
-    v.x.hypot(v.y).hypot(v.z)
-}
-
 impl Document {
     /// The transform, and the field that gave its translation.
     fn transform<To: FrameTag, From: FrameTag>(
         &self,
-    ) -> Result<(Transform<To, From>, &'static str), Fault> {
+    ) -> Result<(Transform<To, From>, &'static str), TransformContentError> {
         let (rotation, translation) = ("rotation", "translation");
         let (transform, field) = match (self.translation_m, self.quaternion_xyzw, self.matrix) {
             (Some(t), Some(q), None) => (Transform::from_quaternion(t, q), "translation_m"),
@@ -146,106 +170,41 @@ impl Document {
                 (Transform::from_matrix(&matrix), "matrix")
             }
             (_, Some(_), Some(_)) => {
-                return Err(Fault::TwoForms {
+                return Err(TransformContentError::TwoForms {
                     part: rotation,
                     field: "quaternion_xyzw",
                 });
             }
             (Some(_), None, Some(_)) => {
-                return Err(Fault::TwoForms {
+                return Err(TransformContentError::TwoForms {
                     part: translation,
                     field: "translation_m",
                 });
             }
-            (_, None, None) => return Err(Fault::MissingPart { part: rotation }),
-            (None, Some(_), None) => return Err(Fault::MissingPart { part: translation }),
-        };
-        Ok((transform.map_err(Fault::Numbers)?, field))
-    }
-}
-
-/// What is wrong in a file; it becomes a [`TransformFileError`] where the file's name is known.
-#[derive(Debug)]
-pub(crate) enum Fault {
-    Json {
-        line: usize,
-        column: usize,
-        problem: String,
-        remedy: &'static str,
-    },
-    Schema {
-        found: Option<String>,
-    },
-    NoFrameId {
-        field: &'static str,
-    },
-    MissingPart {
-        part: &'static str,
-    },
-    TwoForms {
-        part: &'static str,
-        field: &'static str,
-    },
-    TooFar {
-        field: &'static str,
-        length_m: f64,
-    },
-    Covariance(CovarianceError),
-    Numbers(TransformError),
-}
-
-impl Fault {
-    fn json(error: &serde_json::Error, bytes: &[u8]) -> Self {
-        let (line, column) = (error.line(), error.column());
-        let problem = error.to_string();
-        let place = format!(" at line {line} column {column}");
-        let problem = problem.strip_suffix(&place).unwrap_or(&problem).to_owned();
-        match non_finite_word(bytes, line, column) {
-            Some(word) => {
-                let problem = format!("{word} is no number of JSON");
-                Self::Json {
-                    line,
-                    column,
-                    problem,
-                    remedy: FINITE_REMEDY,
-                }
+            (_, None, None) => return Err(TransformContentError::MissingPart { part: rotation }),
+            (None, Some(_), None) => {
+                return Err(TransformContentError::MissingPart { part: translation });
             }
-            None => Self::Json {
-                line,
-                column,
-                problem,
-                remedy: REMEDY,
-            },
-        }
+        };
+        Ok((transform?, field))
     }
+}
 
-    pub(crate) fn at(self, path: &Path) -> TransformFileError {
-        let path = path.to_owned();
-        match self {
-            Self::Json {
-                line,
-                column,
-                problem,
-                remedy,
-            } => TransformFileError::Json {
-                path,
-                line,
-                column,
-                problem,
-                remedy,
-            },
-            Self::Schema { found } => TransformFileError::Schema { path, found },
-            Self::NoFrameId { field } => TransformFileError::NoFrameId { path, field },
-            Self::MissingPart { part } => TransformFileError::MissingPart { path, part },
-            Self::TwoForms { part, field } => TransformFileError::TwoForms { path, part, field },
-            Self::TooFar { field, length_m } => TransformFileError::TooFar {
-                path,
-                field,
-                length_m,
-            },
-            Self::Covariance(source) => TransformFileError::Covariance { path, source },
-            Self::Numbers(source) => TransformFileError::Numbers { path, source },
-        }
+/// What the JSON reader found wrong, with the place.
+fn json_error(error: &serde_json::Error, bytes: &[u8]) -> TransformContentError {
+    let (line, column) = (error.line(), error.column());
+    let problem = error.to_string();
+    let place = format!(" at line {line} column {column}");
+    let problem = problem.strip_suffix(&place).unwrap_or(&problem).to_owned();
+    let (problem, remedy) = match non_finite_word(bytes, line, column) {
+        Some(word) => (format!("{word} is no number of JSON"), FINITE_REMEDY),
+        None => (problem, REMEDY),
+    };
+    TransformContentError::Json {
+        line,
+        column,
+        problem,
+        remedy,
     }
 }
 

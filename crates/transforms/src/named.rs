@@ -1,6 +1,5 @@
-use crate::{FrameTag, Transform, TransformFileError, UncertainTransform, file, json};
+use crate::{FrameTag, Transform, UncertainTransform};
 use nalgebra::Matrix6;
-use std::path::Path;
 
 /// A transform together with the ids that its frames have at run time.
 ///
@@ -68,37 +67,5 @@ impl<To: FrameTag, From: FrameTag> NamedTransform<To, From> {
             transform: self.transform,
             covariance: self.covariance.unwrap_or_default(),
         }
-    }
-
-    /// Reads a transform's file.
-    ///
-    /// The rotation may be rounded: a quaternion is normalised, and a matrix replaced by the
-    /// nearest rotation, where they are off by 1e-3 at most.
-    ///
-    /// # Errors
-    ///
-    /// [`TransformFileError::Read`]; [`Json`](TransformFileError::Json) for what is not JSON or
-    /// not of the form above; [`Schema`](TransformFileError::Schema),
-    /// [`NoFrameId`](TransformFileError::NoFrameId),
-    /// [`MissingPart`](TransformFileError::MissingPart),
-    /// [`TwoForms`](TransformFileError::TwoForms), [`TooFar`](TransformFileError::TooFar),
-    /// [`Covariance`](TransformFileError::Covariance), [`Numbers`](TransformFileError::Numbers).
-    pub fn read(path: impl AsRef<Path>) -> Result<Self, TransformFileError> {
-        let path = path.as_ref();
-        let bytes = file::read_bytes(path)?;
-        json::parse(&bytes).map_err(|fault| fault.at(path))
-    }
-
-    /// Writes a transform's file, with translation and quaternion, w ≥ 0. The file appears as a
-    /// whole or not at all.
-    ///
-    /// # Errors
-    ///
-    /// [`TransformFileError::NoFrameId`], [`TransformFileError::TooFar`] for what could not be
-    /// read back; [`TransformFileError::Write`].
-    pub fn write(&self, path: impl AsRef<Path>) -> Result<(), TransformFileError> {
-        let path = path.as_ref();
-        let text = json::format(self).map_err(|fault| fault.at(path))?;
-        file::write_atomically(path, text.as_bytes())
     }
 }

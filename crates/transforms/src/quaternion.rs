@@ -53,6 +53,11 @@ pub(crate) fn canonical(quaternion: &UnitQuaternion<f64>) -> UnitQuaternion<f64>
     UnitQuaternion::new_unchecked(Quaternion::new(w, x, y, z))
 }
 
+/// A rotation as x y z w with w ≥ 0; for a half turn, with w = 0, the first component that is not 0 is positive.
+pub fn canonical_xyzw(rotation: &UnitQuaternion<f64>) -> [f64; 4] {
+    to_xyzw(&canonical(rotation))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

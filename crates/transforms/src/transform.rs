@@ -159,7 +159,7 @@ impl<To: FrameTag, From: FrameTag> Transform<To, From> {
     /// The rotation as x y z w with w ≥ 0; for a half turn, with w = 0, the first component that
     /// is not 0 is positive.
     pub fn quaternion_xyzw(&self) -> [f64; 4] {
-        quaternion::to_xyzw(&quaternion::canonical(&self.isometry.rotation))
+        quaternion::canonical_xyzw(&self.isometry.rotation)
     }
 
     /// Rotation and translation without their frames.

@@ -1,4 +1,4 @@
-use xtask::gate::{Finding, Verdict};
+use xtask_gate::{Finding, Verdict};
 
 /// The fields that moved, or all of them, as lines of text.
 pub(super) fn of(findings: &[Finding], all: bool) -> String {
@@ -93,7 +93,7 @@ pub(super) fn aligned<const N: usize>(rows: &[[String; N]]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use xtask::gate::FieldLimits;
+    use xtask_gate::FieldLimits;
 
     fn finding(verdict: Verdict) -> Finding {
         Finding {

@@ -1,7 +1,8 @@
-use super::{Fault, FrameIds, SampleSet, Samples, check_ids};
-use crate::{PointSample, PoseSample};
+use super::checks::{check_ids, not_rigid};
+use crate::{FrameIds, PointSample, PoseSample, SampleSet, Samples};
 use csv::{ReaderBuilder, StringRecord, Trim};
 use nalgebra::Point3;
+use pomona_files::Malformed;
 use pomona_transforms::{FrameTag, Position, Transform};
 
 const POINT: [&str; 7] = [
@@ -23,7 +24,7 @@ struct Row {
     numbers: Vec<f64>,
 }
 
-pub(super) fn parse(bytes: &[u8]) -> Result<SampleSet, Fault> {
+pub(super) fn parse(bytes: &[u8]) -> Result<SampleSet, Malformed> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let mut reader = ReaderBuilder::new().trim(Trim::All).from_reader(bytes);
     let header = reader.headers().map_err(|e| syntax(&e))?.clone();
@@ -55,33 +56,33 @@ pub(super) fn parse(bytes: &[u8]) -> Result<SampleSet, Fault> {
     })
 }
 
-fn syntax(error: &csv::Error) -> Fault {
+fn syntax(error: &csv::Error) -> Malformed {
     let place = error
         .position()
         .map_or_else(|| "CSV".to_owned(), |p| format!("line {}", p.line()));
-    Fault::new(
+    Malformed::new(
         place,
-        error,
+        error.to_string(),
         "give as many fields in each line as there are columns",
     )
 }
 
-/// Where each of `columns` stands in the header, which has these and no others.
-fn order(header: &StringRecord, columns: &[String]) -> Result<Vec<usize>, Fault> {
+/// The index of each of `columns` in the header, which has these and no others.
+fn order(header: &StringRecord, columns: &[String]) -> Result<Vec<usize>, Malformed> {
     let remedy = || format!("give the columns {}", columns.join(","));
     for (i, name) in header.iter().enumerate() {
         if !columns.iter().any(|c| c == name) {
             let problem = format!("the column `{name}` is unknown");
-            return Err(Fault::new("line 1", problem, remedy()));
+            return Err(Malformed::new("line 1", problem, remedy()));
         }
         if header.iter().take(i).any(|other| other == name) {
-            let problem = format!("the column `{name}` stands twice");
-            return Err(Fault::new("line 1", problem, remedy()));
+            let problem = format!("the column `{name}` is given twice");
+            return Err(Malformed::new("line 1", problem, remedy()));
         }
     }
     let place = |column: &String| {
         header.iter().position(|h| h == column).ok_or_else(|| {
-            Fault::new(
+            Malformed::new(
                 "line 1",
                 format!("the column `{column}` is missing"),
                 remedy(),
@@ -91,13 +92,13 @@ fn order(header: &StringRecord, columns: &[String]) -> Result<Vec<usize>, Fault>
     columns.iter().map(place).collect()
 }
 
-fn row(record: &StringRecord, columns: &[String], order: &[usize]) -> Result<Row, Fault> {
+fn row(record: &StringRecord, columns: &[String], order: &[usize]) -> Result<Row, Malformed> {
     let line = record.position().map_or(0, csv::Position::line);
     let field = |k: usize| record.get(order[k]).unwrap_or_default();
     let numbers = (1..columns.len()).map(|k| {
         let number: Option<f64> = field(k).parse().ok();
         number.filter(|n| n.is_finite()).ok_or_else(|| {
-            Fault::new(
+            Malformed::new(
                 format!("line {line}, column `{}`", columns[k]),
                 format!("`{}` is no finite number", field(k)),
                 "write a number with a point, or leave the sample out",
@@ -120,7 +121,7 @@ fn point(row: Row) -> PointSample {
     }
 }
 
-fn pose(row: Row) -> Result<PoseSample, Fault> {
+fn pose(row: Row) -> Result<PoseSample, Malformed> {
     Ok(PoseSample {
         robot_from_flange: transform(&row, 0)?,
         camera_from_target: transform(&row, 1)?,
@@ -131,11 +132,8 @@ fn pose(row: Row) -> Result<PoseSample, Fault> {
 fn transform<To: FrameTag, From: FrameTag>(
     row: &Row,
     which: usize,
-) -> Result<Transform<To, From>, Fault> {
+) -> Result<Transform<To, From>, Malformed> {
     let n = &row.numbers[7 * which..][..7];
-    Transform::from_quaternion([n[0], n[1], n[2]], [n[3], n[4], n[5], n[6]]).map_err(|e| {
-        let text = e.to_string();
-        let (problem, remedy) = text.split_once("; ").unwrap_or((&text, "copy all digits"));
-        Fault::new(format!("{}: {}", row.place, POSES[which]), problem, remedy)
-    })
+    Transform::from_quaternion([n[0], n[1], n[2]], [n[3], n[4], n[5], n[6]])
+        .map_err(|e| not_rigid(format!("{}: {}", row.place, POSES[which]), &e))
 }

@@ -1,6 +1,7 @@
-use super::{Fault, FrameIds, SAMPLES_SCHEMA, SampleSet, Samples, check_ids};
-use crate::{PointSample, PoseSample};
+use super::checks::{check_ids, not_rigid};
+use crate::{FrameIds, PointSample, PoseSample, SAMPLES_SCHEMA, SampleSet, Samples};
 use nalgebra::{Matrix4, Point3};
+use pomona_files::Malformed;
 use pomona_transforms::{FrameTag, Position, Transform};
 use serde::Deserialize;
 use serde_json::Value;
@@ -44,12 +45,12 @@ struct Rigid {
     matrix: Option<[[f64; 4]; 4]>,
 }
 
-pub(super) fn parse(bytes: &[u8]) -> Result<SampleSet, Fault> {
+pub(super) fn parse(bytes: &[u8]) -> Result<SampleSet, Malformed> {
     let syntax = |e: serde_json::Error| {
         let place = format!(" at line {} column {}", e.line(), e.column());
         let text = e.to_string();
         let problem = text.strip_suffix(&place).unwrap_or(&text);
-        Fault::new(place.trim_start_matches(" at "), problem, REMEDY)
+        Malformed::new(place.trim_start_matches(" at "), problem, REMEDY)
     };
     let value: Value = serde_json::from_slice(bytes).map_err(syntax)?;
     // The schema first: in a file of another one, its fields are not what is wrong.
@@ -58,7 +59,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<SampleSet, Fault> {
         found => {
             let found = found.map_or("missing".to_owned(), Value::to_string);
             let remedy = format!("give a file of samples, with \"schema\": \"{SAMPLES_SCHEMA}\"");
-            return Err(Fault::new("schema", format!("it is {found}"), remedy));
+            return Err(Malformed::new("schema", format!("it is {found}"), remedy));
         }
     }
     let document: Document = serde_json::from_slice(bytes).map_err(syntax)?;
@@ -66,13 +67,13 @@ pub(super) fn parse(bytes: &[u8]) -> Result<SampleSet, Fault> {
         (Some(points), None) => Samples::Points(of_points(points)?),
         (None, Some(poses)) => Samples::Poses(of_poses(poses)?),
         (Some(_), Some(_)) => {
-            return Err(Fault::new(
+            return Err(Malformed::new(
                 "points, poses",
                 "both are given",
                 "give each a file of its own",
             ));
         }
-        (None, None) => return Err(Fault::new("points, poses", "there is neither", REMEDY)),
+        (None, None) => return Err(Malformed::new("points, poses", "there is neither", REMEDY)),
     };
     Ok(SampleSet {
         samples,
@@ -85,7 +86,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<SampleSet, Fault> {
     })
 }
 
-fn of_points(points: Vec<Point>) -> Result<Vec<PointSample>, Fault> {
+fn of_points(points: Vec<Point>) -> Result<Vec<PointSample>, Malformed> {
     let ids = points.iter().enumerate();
     let ids: Vec<_> = ids
         .map(|(i, p)| (format!("points[{i}]"), p.id.as_str()))
@@ -99,7 +100,7 @@ fn of_points(points: Vec<Point>) -> Result<Vec<PointSample>, Fault> {
     Ok(points.into_iter().map(sample).collect())
 }
 
-fn of_poses(poses: Vec<Pose>) -> Result<Vec<PoseSample>, Fault> {
+fn of_poses(poses: Vec<Pose>) -> Result<Vec<PoseSample>, Malformed> {
     let ids = poses.iter().enumerate();
     let ids: Vec<_> = ids
         .map(|(i, p)| (format!("poses[{i}]"), p.id.as_str()))
@@ -119,7 +120,7 @@ fn transform<To: FrameTag, From: FrameTag>(
     rigid: &Rigid,
     id: &str,
     field: &str,
-) -> Result<Transform<To, From>, Fault> {
+) -> Result<Transform<To, From>, Malformed> {
     let place = format!("sample `{id}`: {field}");
     let found = match (rigid.translation_m, rigid.quaternion_xyzw, rigid.matrix) {
         (Some(t), Some(q), None) => Transform::from_quaternion(t, q),
@@ -127,12 +128,8 @@ fn transform<To: FrameTag, From: FrameTag>(
         _ => {
             let problem = "it is given in part, or twice";
             let remedy = "give translation_m and quaternion_xyzw, or matrix in their place";
-            return Err(Fault::new(place, problem, remedy));
+            return Err(Malformed::new(place, problem, remedy));
         }
     };
-    found.map_err(|e| {
-        let text = e.to_string();
-        let (problem, remedy) = text.split_once("; ").unwrap_or((&text, "copy all digits"));
-        Fault::new(place, problem, remedy)
-    })
+    found.map_err(|e| not_rigid(place, &e))
 }

@@ -1,7 +1,7 @@
 //! Why point pairs do not fit.
 
 use super::estimator::PointPairs;
-use super::{needed, search};
+use super::search::{needed, search};
 use crate::{CalibrateError, Options};
 use nalgebra::{Matrix3, Point3, Vector3};
 use rand_core::Rng;

@@ -2,7 +2,7 @@
 
 use super::motions::{self, LEAST_ROTATION_RAD};
 use super::refine::least_squares;
-use super::system::{Model, Pair, Scale};
+use super::system::{HandEyeModel, Pair, Scale};
 use super::{daniilidis, park, shah};
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion, Vector3};
 use pomona_ransac::{Candidates, Estimator};
@@ -23,14 +23,14 @@ pub enum PoseSolver {
 
 impl PoseSolver {
     /// The published algorithm on all `pairs` alike, without weights or refinement.
-    pub(crate) fn solve(self, pairs: &[Pair]) -> Option<Model> {
+    pub(crate) fn solve(self, pairs: &[Pair]) -> Option<HandEyeModel> {
         let camera = match self {
             Self::Park => park::solve(&motions::between(pairs)),
             Self::Daniilidis => daniilidis::solve(&motions::between(pairs)),
             Self::Shah => return shah::solve(pairs),
         }?;
         let target = mean(pairs.iter().map(|p| p.carrier.inv_mul(&(camera * p.seen))))?;
-        let model = Model { camera, target };
+        let model = HandEyeModel { camera, target };
         model.is_finite().then_some(model)
     }
 }
@@ -61,14 +61,14 @@ pub(crate) struct PosePairs<'a> {
 }
 
 impl Estimator for PosePairs<'_> {
-    type Model = Model;
+    type Model = HandEyeModel;
     const SAMPLE_SIZE: usize = 3;
 
     fn len(&self) -> usize {
         self.pairs.len()
     }
 
-    fn fit(&self, sample: &[usize], candidates: &mut Candidates<Model>) {
+    fn fit(&self, sample: &[usize], candidates: &mut Candidates<HandEyeModel>) {
         let pairs: Vec<Pair> = sample.iter().map(|&i| self.pairs[i]).collect();
         // Three poses that hardly turn, or about one axis only, leave the answer to the noise.
         let spread = motions::spread(&pairs);
@@ -80,12 +80,12 @@ impl Estimator for PosePairs<'_> {
         }
     }
 
-    fn refit(&self, inliers: &[usize], current: &Model) -> Option<Model> {
+    fn refit(&self, inliers: &[usize], current: &HandEyeModel) -> Option<HandEyeModel> {
         let pairs: Vec<Pair> = inliers.iter().map(|&i| self.pairs[i]).collect();
         least_squares(&pairs, &vec![1.0; pairs.len()], current, &self.tolerance)
     }
 
-    fn residuals(&self, model: &Model, block: Range<usize>, out: &mut [f64]) {
+    fn residuals(&self, model: &HandEyeModel, block: Range<usize>, out: &mut [f64]) {
         for (r, i) in out.iter_mut().zip(block) {
             *r = model.offset(&self.pairs[i]).squared(&self.tolerance).sqrt();
         }

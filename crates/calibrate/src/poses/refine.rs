@@ -1,7 +1,10 @@
 //! Joint refinement of both unknowns on SE(3) × SE(3).
 
-use super::system::{Matrix12, Model, Offset, Pair, Scale, normal_equations};
-use crate::robust::{StudentT, median};
+use super::system::{HandEyeModel, Matrix12, Offset, Pair, Scale, normal_equations};
+use crate::robust::{MEDIAN_NORM_OF_3, StudentT, median};
+
+/// Three poses determine the unknowns; a fourth tells whether one of them is wrong.
+pub(crate) const LEAST_POSES: usize = 4;
 
 const MAX_STEPS: usize = 50;
 const MAX_ROUNDS: usize = 30;
@@ -25,9 +28,9 @@ type Loss = StudentT<6>;
 pub(crate) fn least_squares(
     pairs: &[Pair],
     weights: &[f64],
-    start: &Model,
+    start: &HandEyeModel,
     scale: &Scale,
-) -> Option<Model> {
+) -> Option<HandEyeModel> {
     let mut model = *start;
     let (mut normal, mut descent, mut objective) = normal_equations(pairs, weights, &model, scale);
     let mut damping = 1e-9;
@@ -70,7 +73,7 @@ pub(crate) fn least_squares(
 /// A model with all that was learnt beside it.
 #[derive(Clone, Debug)]
 pub(crate) struct Fit {
-    pub(crate) model: Model,
+    pub(crate) model: HandEyeModel,
     /// Standard deviations of one component of an offset.
     pub(crate) noise: Scale,
     /// Weight of each sample; 0 for those that are rejected.
@@ -92,7 +95,7 @@ impl Fit {
 ///
 /// Weights and noise are those of a Student t, found in turns with the model; a sample beyond the gate of
 /// a thousandth is left out, and taken in again where it comes back.
-pub(crate) fn robust(pairs: &[Pair], inliers: &[usize], start: &Model) -> Option<Fit> {
+pub(crate) fn robust(pairs: &[Pair], inliers: &[usize], start: &HandEyeModel) -> Option<Fit> {
     let mut model = *start;
     let mut kept: Vec<bool> = (0..pairs.len()).map(|i| inliers.contains(&i)).collect();
     let mut noise = first_noise(pairs, &kept, &model);
@@ -109,7 +112,7 @@ pub(crate) fn robust(pairs: &[Pair], inliers: &[usize], start: &Model) -> Option
             .map(|p| next.offset(p).squared(&next_noise) <= Loss::gate())
             .collect();
         // Never fewer than a model needs, however odd the noise.
-        let enough = gated.iter().filter(|k| **k).count() >= super::LEAST_POSES;
+        let enough = gated.iter().filter(|k| **k).count() >= LEAST_POSES;
         let gated = if enough { gated } else { kept.clone() };
         let settled = gated == kept && close(&noise, &next_noise);
         (model, noise, kept) = (next, next_noise, gated);
@@ -126,7 +129,7 @@ pub(crate) fn robust(pairs: &[Pair], inliers: &[usize], start: &Model) -> Option
     finish(pairs, model, noise, &kept)
 }
 
-fn finish(pairs: &[Pair], model: Model, noise: Scale, kept: &[bool]) -> Option<Fit> {
+fn finish(pairs: &[Pair], model: HandEyeModel, noise: Scale, kept: &[bool]) -> Option<Fit> {
     let squared: Vec<f64> = pairs
         .iter()
         .map(|p| model.offset(p).squared(&noise))
@@ -158,12 +161,11 @@ fn close(a: &Scale, b: &Scale) -> bool {
         && (a.translation_m / b.translation_m).ln().abs() < 1e-6
 }
 
-/// The noise by medians, before anything is weighted: the median of |N(0, σ² I₃)| is 1.538 σ.
-fn first_noise(pairs: &[Pair], kept: &[bool], model: &Model) -> Scale {
-    const MEDIAN_OF_3: f64 = 1.538_172;
+/// The noise by medians, before anything is weighted.
+fn first_noise(pairs: &[Pair], kept: &[bool], model: &HandEyeModel) -> Scale {
     let size = |part: fn(&Offset) -> f64| {
         let offsets = pairs.iter().zip(kept).filter(|(_, k)| **k);
-        median(offsets.map(|(p, _)| part(&model.offset(p))).collect()) / MEDIAN_OF_3
+        median(offsets.map(|(p, _)| part(&model.offset(p))).collect()) / MEDIAN_NORM_OF_3
     };
     Scale {
         rotation_rad: size(|o| o.rotation.norm()).max(FLOOR.rotation_rad),
@@ -172,7 +174,7 @@ fn first_noise(pairs: &[Pair], kept: &[bool], model: &Model) -> Scale {
 }
 
 /// The noise by weighted squares.
-fn noise_of(pairs: &[Pair], weights: &[f64], model: &Model) -> Scale {
+fn noise_of(pairs: &[Pair], weights: &[f64], model: &HandEyeModel) -> Scale {
     let n = weights.iter().filter(|w| **w > 0.0).count() as f64;
     let (mut rotation, mut translation) = (0.0, 0.0);
     for (pair, weight) in pairs.iter().zip(weights) {

@@ -21,7 +21,7 @@ pub(crate) struct Pair {
 
 /// Both unknowns.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Model {
+pub(crate) struct HandEyeModel {
     /// X, `carrier_from_camera`.
     pub(crate) camera: Isometry3<f64>,
     /// Q, `other_from_target`.
@@ -52,7 +52,7 @@ pub(crate) struct Scale {
     pub(crate) translation_m: f64,
 }
 
-impl Model {
+impl HandEyeModel {
     /// M̂ = X⁻¹ C Q against M.
     pub(crate) fn offset(&self, pair: &Pair) -> Offset {
         let predicted = self.camera.inv_mul(&(pair.carrier * self.target));
@@ -115,7 +115,7 @@ impl Model {
 pub(crate) fn normal_equations(
     pairs: &[Pair],
     weights: &[f64],
-    model: &Model,
+    model: &HandEyeModel,
     scale: &Scale,
 ) -> (Matrix12, Vector12, f64) {
     let inverse = Vector6::from_fn(|i, _| {
@@ -178,7 +178,7 @@ mod tests {
         fn derivatives_are_differences(
             camera in isometry(), target in isometry(), carrier in isometry(), noise in prop::array::uniform6(-0.3..0.3f64),
         ) {
-            let model = Model { camera, target };
+            let model = HandEyeModel { camera, target };
             let seen = twist::exp(&Vector6::from(noise)) * camera.inv_mul(&(carrier * target));
             let pair = Pair { carrier, seen };
             let offset = model.offset(&pair);

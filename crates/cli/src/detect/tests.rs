@@ -13,11 +13,9 @@ impl Detector for Middle {
     fn detect(&self, image: &ColorImage) -> Result<Vec<Detection>, DetectError> {
         let (w, h) = (image.width as f64, image.height as f64);
         if w < 4.0 {
-            return Err(DetectError::Image {
-                width: image.width,
-                height: image.height,
-                problem: "too small".to_owned(),
-                remedy: "give a larger one".to_owned(),
+            return Err(DetectError::Other {
+                detector: "middle".to_owned(),
+                source: "too small".into(),
             });
         }
         let seen = |[x_min, y_min, x_max, y_max]: [f64; 4], score| Detection {
@@ -36,15 +34,12 @@ impl Detector for Middle {
     }
 
     fn report(&self) -> DetectorReport {
+        let mut runtime = RuntimeReport::new("embedded", "1.2.3");
+        runtime.fallback_reason = Some("nothing else found".to_owned());
         DetectorReport {
             name: "middle".to_owned(),
             family: Some("own".to_owned()),
-            runtime: Some(RuntimeReport {
-                name: "embedded".to_owned(),
-                version: "1.2.3".to_owned(),
-                library: None,
-                fallback_reason: Some("nothing else found".to_owned()),
-            }),
+            runtime: Some(runtime),
             notes: vec!["the input's size is open".to_owned()],
         }
     }
@@ -80,12 +75,11 @@ fn detect_in(dir: &TempDir, names: &[&str], more: &[&str]) -> Result<(), String>
         .arguments;
     let run = || -> anyhow::Result<()> {
         let images = images_of(&arguments)?;
-        let earlier = record::files_of_earlier_run(&arguments.out.join(DETECTIONS));
-        refuse_foreign(&arguments, &images, &earlier)?;
+        let output = claim(&arguments, &images)?;
         let job = Job {
             arguments: &arguments,
             images: &images,
-            earlier: &earlier,
+            output: &output,
             detector: &Middle,
             open_ms: 1.5,
         };

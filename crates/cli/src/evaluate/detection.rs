@@ -1,7 +1,7 @@
-use super::{DETECTION, EvaluateArguments, REPORT, detection_text, json, refuse_foreign, say};
+use super::{DETECTION, EvaluateArguments, REPORT, claim, detection_text, json, say};
 use crate::detect;
 use crate::detector::{BUILT_IN, DetectorSettings, Model, parse_class, parse_model, parse_share};
-use crate::output_folder::{OutputFolder, write_text};
+use crate::output_folder::Staging;
 use crate::progress;
 use crate::summary::plural;
 use crate::terminal::Terminal;
@@ -9,9 +9,9 @@ use anyhow::bail;
 use clap::Args;
 use pomona_cloud::{ColorImage, PixelBox};
 use pomona_detect::{ClassChoice, Detection, Detector};
-use pomona_evaluate::{
-    DETECTION_SCHEMA, DetectionDataset, DetectionEvaluation, DetectionSettings, DetectionSource,
-    ImageOutcome, Label, detection_page, evaluate_detections, read_detections,
+use pomona_labels::{
+    DETECTION_SCHEMA, DetectionEvaluation, DetectionOptions, DetectionSource, GroundTruthBox,
+    LabelledDataset, MatchedImage, detection_page, evaluate_detections, read_detections,
 };
 use pomona_view::{BoxKind, BoxMark, SheetPicture, picture_sheet};
 use std::path::{Path, PathBuf};
@@ -28,7 +28,7 @@ const SHEET_SIDE: usize = 416;
 pub(super) struct DetectionArguments {
     /// Measure detectors on labelled images: a folder of images with YOLO or VOC labels, a COCO file or its folder, a
     /// frame with boxes, or a folder of frames.
-    #[arg(long, value_name = "FOLDER", help_heading = HEADING, conflicts_with_all = ["subjects", "methods", "variants", "config", "calipers"])]
+    #[arg(long, value_name = "FOLDER", help_heading = HEADING, conflicts_with_all = ["subjects", "methods", "variants", "SettingValues", "calipers"])]
     pub(super) detection: Option<PathBuf>,
     /// A model to measure (ONNX), or `built-in`; may be repeated. Default: built-in, where no --boxes are given.
     #[arg(long = "model", value_name = "FILE", value_parser = parse_model, requires = "detection", help_heading = HEADING)]
@@ -43,14 +43,14 @@ pub(super) struct DetectionArguments {
     /// Which class of the labels is an apple. Default: all of them.
     #[arg(long, value_name = "NAME|N", value_parser = parse_class, requires = "detection", help_heading = HEADING)]
     label_class: Option<ClassChoice>,
-    /// Labels of this name or class neither count nor punish, such as reference balls; `*` at its end stands for
-    /// anything. May be repeated.
+    /// Ignore the labels of this name or class, such as reference balls; `*` at its end matches anything. May be
+    /// repeated.
     #[arg(long, value_name = "NAME", requires = "detection", help_heading = HEADING)]
     ignore_label: Vec<String>,
-    /// Score at which recall, precision and further detections are counted.
+    /// Score threshold at which recall, precision and false positives are counted.
     #[arg(long, value_name = "SCORE", default_value_t = 0.25, value_parser = parse_share, requires = "detection", help_heading = HEADING)]
     threshold: f64,
-    /// Lowest score of a model's boxes: average precision needs unsure ones too.
+    /// Lowest score of a model's boxes: average precision needs those of low score too.
     #[arg(long, value_name = "SCORE", default_value_t = 0.01, value_parser = parse_share, requires = "detection", help_heading = HEADING)]
     lowest_score: f64,
     #[command(flatten)]
@@ -58,7 +58,7 @@ pub(super) struct DetectionArguments {
 }
 
 /// The file with the pictures of the worst images of the detector of this number, counted from 1.
-pub(super) fn sheet_name(number: usize) -> String {
+fn sheet_name(number: usize) -> String {
     format!("worst-{number}.png")
 }
 
@@ -75,8 +75,8 @@ pub(super) fn run(
     terminal: Terminal,
 ) -> anyhow::Result<()> {
     let own = &arguments.detection;
-    refuse_foreign(&arguments.out, DETECTION, DETECTION_SCHEMA)?;
-    let mut dataset = DetectionDataset::read(labelled, own.label_class.as_ref())?;
+    let output = claim(&arguments.out, DETECTION, DETECTION_SCHEMA, is_sheet)?;
+    let mut dataset = LabelledDataset::read(labelled, own.label_class.as_ref())?;
     dataset
         .images
         .truncate(arguments.count.unwrap_or(usize::MAX));
@@ -91,19 +91,18 @@ pub(super) fn run(
     say_what_is_left_out(&dataset, terminal);
     let opened = own.open(&dataset, terminal)?;
     let sources: Vec<DetectionSource<'_>> = opened.iter().map(Opened::source).collect();
-    let settings = DetectionSettings {
+    let options = DetectionOptions {
         threshold: own.threshold,
         seed: arguments.seed,
     };
     let bar = progress::bar(dataset.images.len());
-    let (evaluation, outcomes) =
-        evaluate_detections(&dataset, &sources, &settings, &|| bar.inc(1))?;
+    let (evaluation, matched) = evaluate_detections(&dataset, &sources, &options, &|| bar.inc(1))?;
     bar.finish_and_clear();
-    let output = OutputFolder::new(&arguments.out)?;
-    let sheets = sheets(&dataset, &evaluation, &outcomes, &output)?;
-    write_text(&output, DETECTION, &json(&evaluation)?)?;
-    write_text(&output, REPORT, &detection_page(&evaluation, &sheets)?)?;
-    output.publish_replacing(DETECTION, is_sheet)?;
+    let files = output.stage()?;
+    let sheets = sheets(&dataset, &evaluation, &matched, &files)?;
+    files.write_text(DETECTION, &json(&evaluation)?)?;
+    files.write_text(REPORT, &detection_page(&evaluation, &sheets)?)?;
+    files.publish()?;
     say(
         arguments,
         &evaluation,
@@ -140,7 +139,7 @@ impl Opened {
 
 impl DetectionArguments {
     /// Opens the models and reads the boxes, each under a name of its own.
-    fn open(&self, dataset: &DetectionDataset, terminal: Terminal) -> anyhow::Result<Vec<Opened>> {
+    fn open(&self, dataset: &LabelledDataset, terminal: Terminal) -> anyhow::Result<Vec<Opened>> {
         let models = match (&*self.models, &*self.boxes) {
             ([], []) => &[Model::BuiltIn][..],
             (models, _) => models,
@@ -217,7 +216,7 @@ fn stem(path: &Path) -> String {
     )
 }
 
-fn say_what_is_left_out(dataset: &DetectionDataset, terminal: Terminal) {
+fn say_what_is_left_out(dataset: &LabelledDataset, terminal: Terminal) {
     let name = &dataset.name;
     if dataset.without_label_file > 0 {
         terminal.note(&format!(
@@ -241,21 +240,24 @@ fn say_what_is_left_out(dataset: &DetectionDataset, terminal: Terminal) {
 
 /// Writes the pictures of the worst images of each result; their names, empty where nothing is bad.
 fn sheets(
-    dataset: &DetectionDataset,
+    dataset: &LabelledDataset,
     evaluation: &DetectionEvaluation,
-    outcomes: &[Vec<ImageOutcome>],
-    output: &OutputFolder,
+    matched: &[Vec<MatchedImage>],
+    output: &Staging<'_>,
 ) -> anyhow::Result<Vec<String>> {
     let mut names = Vec::new();
-    for (number, (result, outcomes)) in evaluation.results.iter().zip(outcomes).enumerate() {
+    for (number, (result, matched)) in evaluation.results.iter().zip(matched).enumerate() {
         let mut pictures = Vec::new();
         for worst in &result.worst {
-            let pairs = dataset.images.iter().zip(outcomes);
-            for (image, outcome) in pairs.filter(|(image, _)| image.name == worst.image) {
+            let pairs = dataset.images.iter().zip(matched);
+            for (image, matched) in pairs.filter(|(image, _)| image.name == worst.image) {
                 pictures.push(SheetPicture {
                     image: ColorImage::read(&image.path)?,
-                    marks: marks(outcome, evaluation.threshold),
-                    caption: format!("-{} +{} {}", worst.missed, worst.further, worst.image),
+                    marks: marks(matched, evaluation.threshold),
+                    caption: format!(
+                        "-{} +{} {}",
+                        worst.missed, worst.false_positives, worst.image
+                    ),
                 });
             }
         }
@@ -270,8 +272,8 @@ fn sheets(
     Ok(names)
 }
 
-/// What was found in green, what is missing in yellow, what was found besides in red.
-fn marks(outcome: &ImageOutcome, threshold: f64) -> Vec<BoxMark> {
+/// True positives in green, missed labels in yellow, false positives in red.
+fn marks(matched: &MatchedImage, threshold: f64) -> Vec<BoxMark> {
     let detected = |kind| {
         move |d: Detection| BoxMark {
             bounds: d.to_pixel_box(String::new()),
@@ -279,7 +281,7 @@ fn marks(outcome: &ImageOutcome, threshold: f64) -> Vec<BoxMark> {
             caption: format!("{:.2}", d.score),
         }
     };
-    let missed = |label: Label| {
+    let missed = |label: GroundTruthBox| {
         let [x_min, y_min, x_max, y_max] = label.edges;
         BoxMark {
             bounds: PixelBox {
@@ -294,14 +296,17 @@ fn marks(outcome: &ImageOutcome, threshold: f64) -> Vec<BoxMark> {
             caption: String::new(),
         }
     };
-    let hits = outcome
-        .hits(threshold)
+    let true_positives = matched
+        .true_positives(threshold)
         .into_iter()
         .map(detected(BoxKind::Found));
-    let further = outcome
-        .further(threshold)
+    let false_positives = matched
+        .false_positives(threshold)
         .into_iter()
         .map(detected(BoxKind::Further));
-    let missed = outcome.missed(threshold).into_iter().map(missed);
-    hits.chain(missed).chain(further).collect()
+    let missed = matched.missed(threshold).into_iter().map(missed);
+    true_positives
+        .chain(missed)
+        .chain(false_positives)
+        .collect()
 }

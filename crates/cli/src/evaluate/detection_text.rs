@@ -1,13 +1,14 @@
 use super::text::{UNKNOWN, known, table};
 use crate::terminal::Terminal;
-use pomona_evaluate::{DetectionEvaluation, DetectionResult, Estimate, Share, SizeRecall};
+use pomona_labels::{DetectionEvaluation, DetectionResult, Estimate, SizeRecall};
+use pomona_statistics::Proportion;
 
 /// A detection evaluation as tables of text.
 pub(super) fn tables(evaluation: &DetectionEvaluation, terminal: Terminal) -> String {
     let data = &evaluation.dataset;
     let header = [
         "detector",
-        "run by",
+        "runtime",
         "AP50 %",
         "95 %",
         "AP50-95 %",
@@ -18,12 +19,12 @@ pub(super) fn tables(evaluation: &DetectionEvaluation, terminal: Terminal) -> St
         "at score",
         "recall %",
         "precision %",
-        "further/image",
+        "FP/image",
         "mean IoU",
     ];
     let title = format!(
         "Detection in {}: {} images, {} labels ({} ignored); AP by all points, beside it by COCO's 101; recall, precision, \
-         further and IoU at score {}",
+         false positives (FP) and IoU at score {}",
         data.name, data.images, data.labels, data.ignored_labels, evaluation.threshold
     );
     let rows: Vec<Vec<String>> = evaluation.results.iter().map(result).collect();
@@ -53,7 +54,7 @@ pub(super) fn tables(evaluation: &DetectionEvaluation, terminal: Terminal) -> St
             .differences
             .iter()
             .map(|d| {
-                let mut row = vec![format!("{} less {}", d.second, d.first)];
+                let mut row = vec![format!("{} - {}", d.second, d.first)];
                 for e in [&d.ap50, &d.ap50_95, &d.f1, &d.recall] {
                     row.push(format!("{:+.1}", 100.0 * e.value));
                     row.push(interval(e));
@@ -61,7 +62,13 @@ pub(super) fn tables(evaluation: &DetectionEvaluation, terminal: Terminal) -> St
                 row
             })
             .collect();
-        let pairs = table("In pairs, on the same images", &header, &rows, 1, terminal);
+        let pairs = table(
+            "Differences, paired on the same images",
+            &header,
+            &rows,
+            1,
+            terminal,
+        );
         text += &("\n".to_owned() + &pairs);
     }
     text
@@ -99,7 +106,7 @@ fn result(of: &DetectionResult) -> Vec<String> {
         known(best, |b| format!("{:.3}", b.score)),
         known(of.recall, |e| percent(e.value)),
         known(of.precision, |e| percent(e.value)),
-        format!("{:.2}", of.at_threshold.further_per_image),
+        format!("{:.2}", of.at_threshold.false_positives_per_image),
         known(of.at_threshold.mean_iou, |iou| format!("{iou:.3}")),
     ]
 }
@@ -119,7 +126,7 @@ fn sizes(
         .chain(of(first).iter().map(labels))
         .collect();
     let header: Vec<&str> = header.iter().map(String::as_str).collect();
-    let recall = |share: &Share| match share.of {
+    let recall = |share: &Proportion| match share.of {
         0 => UNKNOWN.to_owned(),
         _ => percent(share.share),
     };

@@ -1,7 +1,8 @@
 mod base;
 
 use crate::terminal::{FAINT, HEADING, Terminal, one_line};
-use pomona_evaluate::{Alignment, CaliperReport, Evaluation, LabRow, Share, SuiteResult, Summary};
+use pomona_evaluate::{Alignment, CaliperReport, Evaluation, LabRow, SuiteResult};
+use pomona_statistics::{Proportion, Summary};
 
 /// What stands where nothing is known.
 pub(super) const UNKNOWN: &str = "-";
@@ -262,7 +263,7 @@ fn mm(metres: f64) -> String {
     format!("{:.2}", metres * 1000.0)
 }
 
-fn percent(share: &Share) -> String {
+fn percent(share: &Proportion) -> String {
     format!("{:.1}", 100.0 * share.share)
 }
 

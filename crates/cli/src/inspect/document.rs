@@ -1,15 +1,14 @@
+use super::camera;
 use super::facts::{Facts, range};
-use super::folder::add_camera;
-use crate::summary::summary;
+use crate::summary::Summary;
 use anyhow::{anyhow, bail};
-use pomona::{Config, Record, RobotFromCamera};
-use pomona_cloud::{Camera, ColorImage, read_boxes};
+use pomona::record::{PicksRecord, SCHEMA};
+use pomona::{Config, RobotFromCamera};
+use pomona_cloud::{ColorImage, read_boxes};
 use pomona_scenes::{TRUTH_SCHEMA, Truth};
+use pomona_transforms::SCHEMA as TRANSFORM_SCHEMA;
 use serde_json::Value;
 use std::path::Path;
-
-/// The schema of a transform's file.
-const TRANSFORM_SCHEMA: &str = "pomona.transform/1";
 
 /// Whether a file that begins so holds boxes: XML, or a text named so.
 pub(super) fn is_box_file(path: &Path, start: &[u8]) -> bool {
@@ -24,7 +23,7 @@ pub(super) fn json(path: &Path) -> anyhow::Result<Facts> {
     let refused = |e: serde_json::Error| anyhow!("{}: {e}; write the file again", path.display());
     let value: Value = serde_json::from_slice(&bytes).map_err(refused)?;
     match value.get("schema").map(|s| s.as_str().unwrap_or_default()) {
-        Some(pomona::SCHEMA) => Ok(record(
+        Some(SCHEMA) => Ok(record(
             path,
             &serde_json::from_slice(&bytes).map_err(refused)?,
         )),
@@ -33,14 +32,14 @@ pub(super) fn json(path: &Path) -> anyhow::Result<Facts> {
         Some(other) => bail!(
             "{}: its schema is `{other}`; known are {}, {TRUTH_SCHEMA} and {TRANSFORM_SCHEMA}",
             path.display(),
-            pomona::SCHEMA
+            SCHEMA
         ),
         None if value.is_array() || value.get("annotations").is_some() => boxes(path),
-        None => camera(path),
+        None => camera::facts(path),
     }
 }
 
-fn record(path: &Path, record: &Record) -> Facts {
+fn record(path: &Path, record: &PicksRecord) -> Facts {
     let mut facts = Facts::new(path, "picks of a frame");
     facts.say("schema", record.schema.clone());
     facts.say("frame", record.frame.id.clone());
@@ -50,7 +49,7 @@ fn record(path: &Path, record: &Record) -> Facts {
     facts.add(
         "apples",
         record.picks.len(),
-        summary(std::slice::from_ref(record)),
+        Summary::of_record(record).to_string(),
     );
     add_radii(
         &mut facts,
@@ -90,15 +89,6 @@ fn transform(path: &Path, named: &RobotFromCamera) -> Facts {
     let text = quaternion.map(|c| format!("{c:.6}")).join(" ");
     facts.add("quaternion_xyzw", quaternion.to_vec(), text);
     facts
-}
-
-/// A camera, as JSON or YAML.
-pub(super) fn camera(path: &Path) -> anyhow::Result<Facts> {
-    let camera = Camera::read(path)?;
-    let mut facts = Facts::new(path, "camera");
-    facts.size(camera.width, camera.height);
-    add_camera(&mut facts, &camera);
-    Ok(facts)
 }
 
 /// Settings, as TOML.

@@ -1,9 +1,10 @@
+use super::camera::add_camera;
 use super::document;
 use super::facts::Facts;
 use super::image::add_fill;
-use crate::output_folder::PICKS;
+use crate::pick::PICKS;
 use crate::summary::plural;
-use pomona_cloud::{Camera, DepthPoints, Frame, read_tum};
+use pomona_cloud::{DepthPoints, Frame, read_tum};
 use pomona_scenes::{TRUTH_FILE, Truth};
 use std::path::Path;
 
@@ -54,31 +55,6 @@ fn frame(path: &Path) -> anyhow::Result<Facts> {
         );
     }
     Ok(facts)
-}
-
-/// Adds what a camera file holds but the image's size.
-pub(super) fn add_camera(facts: &mut Facts, camera: &Camera) {
-    let Camera { fx, fy, cx, cy, .. } = *camera;
-    facts.add("focal_px", vec![fx, fy], format!("{fx} x {fy} px"));
-    facts.add(
-        "principal_point_px",
-        vec![cx, cy],
-        format!("({cx}, {cy}) px"),
-    );
-    facts.add(
-        "depth_scale",
-        camera.depth_scale,
-        format!("{} mm per unit", camera.depth_scale * 1000.0),
-    );
-    facts.say("frame_id", camera.frame_id.clone());
-    match &camera.distortion {
-        None => facts.add("distortion", serde_json::Value::Null, "none"),
-        Some(d) => facts.add(
-            "distortion",
-            d.model.clone(),
-            format!("{} {:?}", d.model, d.coefficients),
-        ),
-    }
 }
 
 fn add_depth_range(facts: &mut Facts, frame: &Frame) {

@@ -182,9 +182,9 @@ fn transforms_and_settings_of_another_form() {
     run("--transform", &bench.text("t.json")).refused(&["t.json", "schema"]);
     run("--transform", &bench.text("gone.json")).refused(&["gone.json", "cannot be read"]);
     run("--config", &bench.text("gone.toml")).refused(&["gone.toml"]);
-    run("--set", "paper.radius_max_m=0.001").refused(&["paper.radius_max_m", "0.001"]);
-    run("--set", "paper.radius=1").refused(&["paper.radius_max_m"]);
-    run("--radius-min-mm", "-3").refused(&["paper.radius_min_m"]);
+    run("--set", "fruit.radius_max_m=0.001").refused(&["fruit.radius_max_m", "0.001"]);
+    run("--set", "fruit.radius=1").refused(&["fruit.radius_max_m"]);
+    run("--radius-min-mm", "-3").refused(&["fruit.radius_min_m"]);
     assert_eq!(tree(bench.root()).len(), before + 1);
 }
 

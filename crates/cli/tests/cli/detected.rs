@@ -3,7 +3,8 @@
 use crate::binary::pomona;
 use crate::schema::Schema;
 use nalgebra::Vector3;
-use pomona::{Record, Status};
+use pomona::Status;
+use pomona::record::{BoxRecord, PickRecord, PicksRecord};
 use pomona_cloud::PixelBox;
 use pomona_scenes::{AppleTruth, Truth};
 use std::path::{Path, PathBuf};
@@ -30,7 +31,7 @@ fn without_boxes() -> TempDir {
     dir
 }
 
-fn overlap(a: &PixelBox, b: &pomona::BoxRecord) -> f64 {
+fn overlap(a: &PixelBox, b: &BoxRecord) -> f64 {
     let width = (a.x_max.min(b.x_max) - a.x_min.max(b.x_min)).max(0.0);
     let height = (a.y_max.min(b.y_max) - a.y_min.max(b.y_min)).max(0.0);
     let both = width * height;
@@ -38,8 +39,8 @@ fn overlap(a: &PixelBox, b: &pomona::BoxRecord) -> f64 {
 }
 
 /// The pick whose box is an apple's.
-fn pick_of<'a>(apple: &AppleTruth, record: &'a Record) -> Option<&'a pomona::Pick> {
-    let same = |p: &&pomona::Pick| overlap(&apple.bounds, &p.pixel_box) >= 0.5;
+fn pick_of<'a>(apple: &AppleTruth, record: &'a PicksRecord) -> Option<&'a PickRecord> {
+    let same = |p: &&PickRecord| overlap(&apple.bounds, &p.pixel_box) >= 0.5;
     record.picks.iter().find(same)
 }
 
@@ -60,7 +61,7 @@ fn the_row_is_detected_and_picked_towards_its_branches() {
         "embedded",
     ])
     .succeeded();
-    let record: Record = serde_json::from_value(run.json()).unwrap();
+    let record: PicksRecord = serde_json::from_value(run.json()).unwrap();
     let truth = Truth::read(fixture("row-demo")).unwrap().apples;
     assert_eq!(truth.len(), 22);
     let found: Vec<_> = truth
@@ -94,7 +95,7 @@ fn a_frame_without_boxes_is_detected_and_picked() {
     let run = pomona(&arguments).succeeded();
     let value = run.json();
     Schema::read("picks.schema.json").accepts(&value);
-    let record: Record = serde_json::from_value(value).unwrap();
+    let record: PicksRecord = serde_json::from_value(value).unwrap();
     let detection = record.detection.as_ref().unwrap();
     assert_eq!(detection.runtime.as_deref(), Some("embedded"));
 
@@ -106,7 +107,7 @@ fn a_frame_without_boxes_is_detected_and_picked() {
 
     // The same again: whatever the number of threads, the same answers.
     let again = pomona(&[&arguments[..], &["--threads", "1"]].concat()).succeeded();
-    let again: Record = serde_json::from_value(again.json()).unwrap();
+    let again: PicksRecord = serde_json::from_value(again.json()).unwrap();
     assert_eq!(again.without_timing(), record.without_timing());
 
     let table = pomona(&["pick", frame, "--out", out, "--runtime", "embedded"]).succeeded();

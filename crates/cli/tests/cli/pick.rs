@@ -1,10 +1,10 @@
 use crate::binary::{pomona, tree};
 use crate::scene::{Bench, frame};
-use pomona::Record;
+use pomona::record::PicksRecord;
 use pomona_cloud::PointCloud;
 use std::path::PathBuf;
 
-fn record(bench: &Bench, name: &str) -> Record {
+fn record(bench: &Bench, name: &str) -> PicksRecord {
     serde_json::from_slice(&bench.read(name)).unwrap()
 }
 

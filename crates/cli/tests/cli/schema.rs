@@ -2,9 +2,10 @@
 
 use crate::binary::pomona;
 use crate::scene::{Bench, frame};
-use pomona::{Config, Mark, Picker, find_apples};
-use pomona_detect::Detection;
-use pomona_evaluate::FixedDetector;
+use pomona::record::PicksRecord;
+use pomona::{CheckedFrame, Config, Mark, Picker, find_apples};
+use pomona_cloud::ColorImage;
+use pomona_detect::{DetectError, Detection, Detector, DetectorReport};
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -116,6 +117,24 @@ fn picks() {
     schema.refuses(&picks, "/picks/0/direction", Some(json!([0, 0, 2])));
 }
 
+/// Finds the same boxes in every image.
+struct FixedDetector {
+    detections: Vec<Detection>,
+}
+
+impl Detector for FixedDetector {
+    fn detect(&self, _: &ColorImage) -> Result<Vec<Detection>, DetectError> {
+        Ok(self.detections.clone())
+    }
+
+    fn report(&self) -> DetectorReport {
+        DetectorReport {
+            name: "fixed".to_owned(),
+            ..DetectorReport::default()
+        }
+    }
+}
+
 #[test]
 fn picks_of_detected_boxes() {
     let schema = Schema::read("picks.schema.json");
@@ -133,10 +152,11 @@ fn picks_of_detected_boxes() {
     };
     let mut config = Config::default();
     config.detection.depth_search = true;
+    let frame = CheckedFrame::new(&frame).unwrap();
     let found = find_apples(&frame, &detector, &config).unwrap();
     let picker = Picker::new(config).unwrap();
-    let outcome = picker.pick_found(&frame, &found, 0, None).unwrap();
-    let picks = serde_json::to_value(&outcome.record).unwrap();
+    let answer = picker.pick_detected(&frame, &found, 0, None).unwrap();
+    let picks = serde_json::to_value(PicksRecord::from(&answer)).unwrap();
     schema.accepts(&picks);
     assert_eq!(picks["picks"][0]["box"]["mark"], "plausible");
     for mark in Mark::ALL {

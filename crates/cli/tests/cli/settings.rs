@@ -27,7 +27,7 @@ fn flags_win_over_the_file() {
     let bench = Bench::new();
     bench.write(
         "pomona.toml",
-        "[paper]\nradius_max_m = 0.06\nline_iterations = 7\n",
+        "[fruit]\nradius_max_m = 0.06\n[paper]\nline_iterations = 7\n",
     );
     let config = bench.text("pomona.toml");
     let flags = [

@@ -1,8 +1,10 @@
 //! COCO JSON, <https://cocodataset.org/#format-data>: a ground-truth object with `images`
 //! and `annotations`, or the bare list of detections that its result files are.
 
-use super::{LabelKind, LabelledBox, PixelBox, check_size};
-use crate::error::Fault;
+use super::checks::check_size;
+use super::labelled::{LabelKind, LabelledBox};
+use super::pixel_box::PixelBox;
+use pomona_files::Malformed;
 use serde::{Deserialize, Deserializer, Serialize};
 
 const REMEDY: &str =
@@ -108,7 +110,11 @@ impl Annotation {
     }
 }
 
-pub(super) fn parse(text: &str, width: usize, height: usize) -> Result<Vec<LabelledBox>, Fault> {
+pub(super) fn parse(
+    text: &str,
+    width: usize,
+    height: usize,
+) -> Result<Vec<LabelledBox>, Malformed> {
     let (annotations, categories) = if text.trim_start().starts_with('[') {
         let annotations: Vec<Annotation> = serde_json::from_str(text).map_err(fault)?;
         (annotations, Vec::new())
@@ -128,7 +134,7 @@ pub(super) fn parse(text: &str, width: usize, height: usize) -> Result<Vec<Label
             "annotations of several images (image_id {} and {})",
             annotations[0].image_id, other.image_id
         );
-        return Err(Fault::new(
+        return Err(Malformed::new(
             "`annotations`",
             problem,
             "keep those of this frame's image only",
@@ -143,8 +149,8 @@ pub(super) fn parse(text: &str, width: usize, height: usize) -> Result<Vec<Label
 
 /// What serde found wrong, with its place.
 #[allow(clippy::needless_pass_by_value, reason = "`map_err` hands errors over")]
-pub(super) fn fault(e: serde_json::Error) -> Fault {
-    Fault::new(
+pub(super) fn fault(e: serde_json::Error) -> Malformed {
+    Malformed::new(
         format!("line {} column {}", e.line(), e.column()),
         e.to_string(),
         REMEDY,

@@ -1,9 +1,11 @@
 //! COCO JSON of many images, and the list of detections that its result files are.
 
+use super::checks::{at_file, text_of, touch_all};
 use super::coco::{Annotation, Category, Dataset, Image, fault};
-use super::{LabelKind, LabelledBox, at_file, text_of, touch_all};
-use crate::error::Fault;
-use crate::{CloudError, PixelBox, file};
+use super::labelled::{LabelKind, LabelledBox};
+use super::pixel_box::PixelBox;
+use crate::CloudError;
+use pomona_files::{Malformed, write_atomically};
 use serde::Deserialize;
 use std::collections::HashMap;
 use std::path::Path;
@@ -65,12 +67,12 @@ impl CocoDataset {
     ///
     /// # Errors
     ///
-    /// [`CloudError::Read`]; [`CloudError::Malformed`], also for an image without `file_name`, one that stands
+    /// [`CloudError::File`], also for an image without `file_name`, one that stands
     /// twice, and an annotation of an image that is not listed; [`CloudError::Box`] for a box that is inverted, not
     /// finite, or outside an image whose size is given.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, CloudError> {
         let path = path.as_ref();
-        let bytes = file::read_bytes(path)?;
+        let bytes = pomona_files::read(path)?;
         let dataset = parse(&bytes).map_err(|fault| fault.at(path))?;
         for image in &dataset.images {
             let (width, height) = image.size_or_any();
@@ -83,14 +85,15 @@ impl CocoDataset {
     ///
     /// # Errors
     ///
-    /// [`CloudError::Box`] for a box that could not be read back, [`CloudError::Write`].
+    /// [`CloudError::Box`] for a box that could not be read back, [`CloudError::File`].
     pub fn write(&self, path: impl AsRef<Path>) -> Result<(), CloudError> {
         let path = path.as_ref();
         for image in &self.images {
             let (width, height) = image.size_or_any();
             touch_all(path, &image.boxes, width, height)?;
         }
-        file::write_atomically(path, format(self).as_bytes())
+        write_atomically(path, format(self).as_bytes())?;
+        Ok(())
     }
 }
 
@@ -108,10 +111,10 @@ impl CocoImage {
 ///
 /// # Errors
 ///
-/// [`CloudError::Read`], [`CloudError::Malformed`], [`CloudError::Box`].
+/// [`CloudError::File`], [`CloudError::Box`].
 pub fn read_coco_results(path: impl AsRef<Path>) -> Result<Vec<CocoResult>, CloudError> {
     let path = path.as_ref();
-    let bytes = file::read_bytes(path)?;
+    let bytes = pomona_files::read(path)?;
     let results = parse_results(&bytes).map_err(|fault| fault.at(path))?;
     // Where their images end is known to whoever knows the images.
     let checked = results.iter().try_for_each(|result| {
@@ -122,7 +125,7 @@ pub fn read_coco_results(path: impl AsRef<Path>) -> Result<Vec<CocoResult>, Clou
     Ok(results)
 }
 
-fn parse(bytes: &[u8]) -> Result<CocoDataset, Fault> {
+fn parse(bytes: &[u8]) -> Result<CocoDataset, Malformed> {
     let dataset: Dataset = serde_json::from_str(text_of(bytes)?).map_err(fault)?;
     let mut images = Vec::with_capacity(dataset.images.len());
     let mut index_of = HashMap::with_capacity(dataset.images.len());
@@ -130,11 +133,15 @@ fn parse(bytes: &[u8]) -> Result<CocoDataset, Fault> {
         let place = || format!("`images`[{index}]");
         let Some(file_name) = image.file_name else {
             let problem = format!("image {} without `file_name`", image.id);
-            return Err(Fault::new(place(), problem, "name its file"));
+            return Err(Malformed::new(place(), problem, "name its file"));
         };
         if index_of.insert(image.id, index).is_some() {
             let problem = format!("the id {} stands twice", image.id);
-            return Err(Fault::new(place(), problem, "give each image its own id"));
+            return Err(Malformed::new(
+                place(),
+                problem,
+                "give each image its own id",
+            ));
         }
         images.push(CocoImage {
             id: image.id,
@@ -146,7 +153,7 @@ fn parse(bytes: &[u8]) -> Result<CocoDataset, Fault> {
     }
     for (index, annotation) in dataset.annotations.into_iter().enumerate() {
         let Some(&image) = index_of.get(&annotation.image_id) else {
-            return Err(Fault::new(
+            return Err(Malformed::new(
                 format!("`annotations`[{index}]"),
                 format!(
                     "image_id {} is of no image in `images`",
@@ -206,7 +213,7 @@ fn format(dataset: &CocoDataset) -> String {
     serde_json::to_string_pretty(&dataset).unwrap_or_default() + "\n"
 }
 
-fn parse_results(bytes: &[u8]) -> Result<Vec<CocoResult>, Fault> {
+fn parse_results(bytes: &[u8]) -> Result<Vec<CocoResult>, Malformed> {
     #[derive(Deserialize)]
     struct Entry {
         image_id: ImageKey,
@@ -217,7 +224,7 @@ fn parse_results(bytes: &[u8]) -> Result<Vec<CocoResult>, Fault> {
     }
     let entries: Vec<Entry> = serde_json::from_str(text_of(bytes)?).map_err(|e| {
         let remedy = "give a COCO result list, each entry with image_id, bbox and score";
-        Fault {
+        Malformed {
             remedy: remedy.to_owned(),
             ..fault(e)
         }

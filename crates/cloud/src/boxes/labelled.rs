@@ -1,4 +1,4 @@
-use super::PixelBox;
+use super::pixel_box::PixelBox;
 
 /// A box with what its file says of its class.
 #[derive(Clone, Debug, PartialEq)]

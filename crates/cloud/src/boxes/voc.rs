@@ -1,23 +1,30 @@
 //! Pascal VOC annotation XML, with the tag names of the standard (`annotation`, `bndbox`)
 //! or those of the recordings that have `annotations` and `bbox`.
 
-use super::{LabelKind, LabelledBox, PixelBox, check_size};
-use crate::error::Fault;
+use super::checks::check_size;
+use super::labelled::{LabelKind, LabelledBox};
+use super::pixel_box::PixelBox;
+use pomona_files::Malformed;
 use roxmltree::{Document, Node};
 use std::fmt::Write;
 
 const REMEDY: &str =
     "give VOC XML: annotation / object / name and bndbox with xmin, ymin, xmax, ymax";
 
-pub(super) fn parse(text: &str, width: usize, height: usize) -> Result<Vec<LabelledBox>, Fault> {
-    let document = Document::parse(text).map_err(|e| Fault::new("XML", e.to_string(), REMEDY))?;
+pub(super) fn parse(
+    text: &str,
+    width: usize,
+    height: usize,
+) -> Result<Vec<LabelledBox>, Malformed> {
+    let document =
+        Document::parse(text).map_err(|e| Malformed::new("XML", e.to_string(), REMEDY))?;
     let root = document.root_element();
     if !matches!(root.tag_name().name(), "annotation" | "annotations") {
         let problem = format!(
             "root element `{}`, not `annotation`",
             root.tag_name().name()
         );
-        return Err(Fault::new(place(&document, root), problem, REMEDY));
+        return Err(Malformed::new(place(&document, root), problem, REMEDY));
     }
     if let Some(size) = child(root, &["size"]) {
         let stated = (
@@ -31,7 +38,7 @@ pub(super) fn parse(text: &str, width: usize, height: usize) -> Result<Vec<Label
         .enumerate()
         .map(|(index, object)| {
             let edges = child(object, &["bndbox", "bbox"]).ok_or_else(|| {
-                Fault::new(place(&document, object), "object without a box", REMEDY)
+                Malformed::new(place(&document, object), "object without a box", REMEDY)
             })?;
             let name = child(object, &["name"])
                 .and_then(|node| node.text())
@@ -76,8 +83,8 @@ fn child<'a, 'i>(parent: Node<'a, 'i>, names: &[&str]) -> Option<Node<'a, 'i>> {
         .find(|node| node.is_element() && names.contains(&node.tag_name().name()))
 }
 
-fn number(document: &Document<'_>, parent: Node<'_, '_>, name: &str) -> Result<f64, Fault> {
-    let fault = |problem: String| Fault::new(place(document, parent), problem, REMEDY);
+fn number(document: &Document<'_>, parent: Node<'_, '_>, name: &str) -> Result<f64, Malformed> {
+    let fault = |problem: String| Malformed::new(place(document, parent), problem, REMEDY);
     let node = child(parent, &[name])
         .ok_or_else(|| fault(format!("`{}` without `{name}`", parent.tag_name().name())))?;
     let text = node.text().unwrap_or_default().trim();

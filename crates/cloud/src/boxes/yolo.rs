@@ -1,17 +1,22 @@
 //! YOLO label text: `class cx cy w h [score]` on each line, as fractions of the image.
 
-use super::{LabelKind, LabelledBox, PixelBox};
-use crate::error::Fault;
+use super::labelled::{LabelKind, LabelledBox};
+use super::pixel_box::PixelBox;
+use pomona_files::Malformed;
 use std::fmt::Write;
 
 const REMEDY: &str =
     "give `class cx cy w h [score]` on each line, as fractions of the image's width and height";
 
-pub(super) fn parse(text: &str, width: usize, height: usize) -> Result<Vec<LabelledBox>, Fault> {
+pub(super) fn parse(
+    text: &str,
+    width: usize,
+    height: usize,
+) -> Result<Vec<LabelledBox>, Malformed> {
     let (width, height) = (width as f64, height as f64);
     let mut boxes = Vec::new();
     for (line, number) in text.lines().zip(1..) {
-        let fault = |problem: String| Fault::new(format!("line {number}"), problem, REMEDY);
+        let fault = |problem: String| Malformed::new(format!("line {number}"), problem, REMEDY);
         let tokens: Vec<&str> = line.split_whitespace().collect();
         if tokens.is_empty() {
             continue;

@@ -1,7 +1,7 @@
 //! The project's own `camera.json`, and Open3D's `PinholeCameraIntrinsic` JSON in its place.
 
 use super::Camera;
-use crate::error::Fault;
+use pomona_files::Malformed;
 use serde::Deserialize;
 use serde_json::Value;
 
@@ -9,9 +9,9 @@ const REMEDY: &str = "give width, height, fx, fy, cx, cy, depth_scale, frame_id 
 const OPEN3D_REMEDY: &str =
     "give width, height and intrinsic_matrix: [fx, 0, 0, 0, fy, 0, cx, cy, 1]";
 
-pub(super) fn parse(text: &str) -> Result<Camera, Fault> {
+pub(super) fn parse(text: &str) -> Result<Camera, Malformed> {
     let fault = |e: serde_json::Error, remedy: &str| {
-        Fault::new(
+        Malformed::new(
             format!("line {} column {}", e.line(), e.column()),
             e.to_string(),
             remedy,
@@ -50,8 +50,8 @@ fn units_per_metre() -> f64 {
 }
 
 impl Open3d {
-    fn into_camera(self) -> Result<Camera, Fault> {
-        let fault = |problem: &str| Fault::new("`intrinsic_matrix`", problem, OPEN3D_REMEDY);
+    fn into_camera(self) -> Result<Camera, Malformed> {
+        let fault = |problem: &str| Malformed::new("`intrinsic_matrix`", problem, OPEN3D_REMEDY);
         let [fx, skew, low, below, fy, low2, cx, cy, one] = self.intrinsic_matrix;
         // Row by row, the principal point would stand here.
         if low != 0.0 || low2 != 0.0 {

@@ -1,4 +1,15 @@
-use super::{CameraError, Distortion};
+use super::error::CameraError;
+use serde::{Deserialize, Serialize};
+
+/// Lens distortion, by model name and coefficients in OpenCV's order.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Distortion {
+    /// Name of the model, for example `plumb_bob`.
+    pub model: String,
+    /// Its coefficients.
+    pub coefficients: Vec<f64>,
+}
 
 /// A lens: how the ray (x/z, y/z) of a point is bent before it meets the image plane.
 #[derive(Clone, Copy, Debug, PartialEq)]

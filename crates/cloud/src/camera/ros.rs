@@ -2,7 +2,7 @@
 //! `sensor_msgs/CameraInfo` message as `ros2 topic echo` (or `rostopic echo`) prints it.
 
 use super::{Camera, Distortion};
-use crate::error::Fault;
+use pomona_files::Malformed;
 use serde::Deserialize;
 
 const REMEDY: &str = "give a camera_calibration file (image_width, image_height, camera_matrix, distortion_model, distortion_coefficients) or an echoed CameraInfo message (width, height, k, d, distortion_model)";
@@ -54,20 +54,20 @@ impl Numbers {
     }
 }
 
-pub(super) fn parse(text: &str) -> Result<Camera, Fault> {
+pub(super) fn parse(text: &str) -> Result<Camera, Malformed> {
     let info: CameraInfo = serde_saphyr::from_str(first_document(text)).map_err(|e| {
         let place = e
             .location()
             .map_or_else(|| "YAML".to_owned(), |at| format!("line {}", at.line()));
-        Fault::new(place, e.without_snippet().to_string(), REMEDY)
+        Malformed::new(place, e.without_snippet().to_string(), REMEDY)
     })?;
     let k = info.k.into_vec();
     let [fx, skew, cx, _, fy, cy, _, _, one] = k[..] else {
         let problem = format!("{} numbers where a 3x3 matrix has 9", k.len());
-        return Err(Fault::new("camera matrix", problem, REMEDY));
+        return Err(Malformed::new("camera matrix", problem, REMEDY));
     };
     if skew != 0.0 || one != 1.0 {
-        return Err(Fault::new("camera matrix", "skewed or scaled", REMEDY));
+        return Err(Malformed::new("camera matrix", "skewed or scaled", REMEDY));
     }
     let coefficients = info.d.into_vec();
     // Drivers of rectified images leave the coefficients out or write zeros.

@@ -1,4 +1,5 @@
 use super::*;
+use pomona_files::FileError;
 use proptest::prelude::*;
 
 fn camera(model: &str, coefficients: &[f64]) -> Camera {
@@ -149,7 +150,10 @@ fn cameras_that_cannot_be_computed_with_are_refused_by_field() {
 fn bad_files_are_refused_by_name() {
     let dir = tempfile::tempdir().unwrap();
     let path = dir.path().join("camera.json");
-    assert!(matches!(Camera::read(&path), Err(CloudError::Read { .. })));
+    assert!(matches!(
+        Camera::read(&path),
+        Err(CloudError::File(FileError::Read { .. }))
+    ));
     let zero = r#"{"width":640,"height":480,"fx":0,"fy":610,"cx":320,"cy":240,"depth_scale":0.001,"frame_id":"a"}"#;
     for (bytes, message) in [
         (zero.as_bytes(), "`fx` is 0"),

@@ -8,10 +8,10 @@
 
 mod record;
 
-use super::check_claim;
+use super::claim::check_claim;
 use crate::PointCloud;
-use crate::error::Fault;
 use pcd_rs::{DataKind, PcdMeta, Reader, Schema, ValueKind, ViewPoint, WriterInit};
+use pomona_files::Malformed;
 use record::Record;
 use std::io::Cursor;
 
@@ -23,16 +23,16 @@ const MAX_POINT_BYTES: u64 = 1 << 20;
 /// A back reference of LZF makes 264 bytes out of 3, which no file exceeds.
 const MAX_LZF_RATIO: u64 = 88;
 
-pub(super) fn parse(bytes: &[u8]) -> Result<PointCloud, Fault> {
+pub(super) fn parse(bytes: &[u8]) -> Result<PointCloud, Malformed> {
     let mut cursor = Cursor::new(bytes);
     let meta = PcdMeta::from_reader(&mut cursor)
-        .map_err(|e| Fault::new("PCD header", e.to_string(), FIELDS))?;
+        .map_err(|e| Malformed::new("PCD header", e.to_string(), FIELDS))?;
     let body = bytes.get(cursor.position() as usize..).unwrap_or_default();
     for axis in ["x", "y", "z"] {
         let field = meta.field_defs.iter().find(|field| field.name == axis);
         if field.is_none_or(|field| field.count != 1) {
             let problem = format!("no field `{axis}` of one number");
-            return Err(Fault::new("PCD header, FIELDS", problem, FIELDS));
+            return Err(Malformed::new("PCD header, FIELDS", problem, FIELDS));
         }
     }
     check_size(&meta, body)?;
@@ -51,10 +51,10 @@ pub(super) fn parse(bytes: &[u8]) -> Result<PointCloud, Fault> {
             ),
             _ => format!("binary data, point {} of {}", index + 1, meta.num_points),
         };
-        Fault::new(place, e.to_string(), DAMAGED)
+        Malformed::new(place, e.to_string(), DAMAGED)
     };
     let reader = Reader::<Record, _>::from_bytes(bytes)
-        .map_err(|e| Fault::new("PCD data", e.to_string(), DAMAGED))?;
+        .map_err(|e| Malformed::new("PCD data", e.to_string(), DAMAGED))?;
     let count = meta.num_points as usize;
     let mut cloud = PointCloud {
         x: Vec::with_capacity(count),
@@ -76,7 +76,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<PointCloud, Fault> {
     Ok(cloud)
 }
 
-fn check_size(meta: &PcdMeta, body: &[u8]) -> Result<(), Fault> {
+fn check_size(meta: &PcdMeta, body: &[u8]) -> Result<(), Malformed> {
     let mut values: u64 = 0;
     let mut point_bytes: u64 = 0;
     for field in &meta.field_defs {
@@ -86,14 +86,18 @@ fn check_size(meta: &PcdMeta, body: &[u8]) -> Result<(), Fault> {
     }
     if point_bytes > MAX_POINT_BYTES {
         let problem = format!("a point of {point_bytes} bytes");
-        return Err(Fault::new("PCD header, SIZE and COUNT", problem, FIELDS));
+        return Err(Malformed::new(
+            "PCD header, SIZE and COUNT",
+            problem,
+            FIELDS,
+        ));
     }
     match meta.data {
         // A digit and a separator for each value, which the last one may lack.
         DataKind::Ascii => check_claim(meta.num_points, 2 * values, body.len() + 1),
         DataKind::Binary => check_claim(meta.num_points, point_bytes, body.len()),
         DataKind::BinaryCompressed => {
-            let fault = |problem| Fault::new("compressed data", problem, DAMAGED);
+            let fault = |problem| Malformed::new("compressed data", problem, DAMAGED);
             let Some((sizes, data)) = body.split_first_chunk::<8>() else {
                 return Err(fault("cut short before its sizes".to_owned()));
             };
@@ -118,7 +122,7 @@ fn check_size(meta: &PcdMeta, body: &[u8]) -> Result<(), Fault> {
 }
 
 /// Width and height where the points stand in rows; a cloud of one row is a list.
-fn organised_size(meta: &PcdMeta) -> Result<Option<(usize, usize)>, Fault> {
+fn organised_size(meta: &PcdMeta) -> Result<Option<(usize, usize)>, Malformed> {
     if meta.height <= 1 {
         // POINTS counts here: some writers leave a wrong WIDTH behind.
         return Ok(None);
@@ -128,7 +132,7 @@ fn organised_size(meta: &PcdMeta) -> Result<Option<(usize, usize)>, Fault> {
             "WIDTH {} times HEIGHT {} is not POINTS {}",
             meta.width, meta.height, meta.num_points
         );
-        return Err(Fault::new(
+        return Err(Malformed::new(
             "PCD header",
             problem,
             "correct the header, or set HEIGHT to 1",
@@ -137,9 +141,9 @@ fn organised_size(meta: &PcdMeta) -> Result<Option<(usize, usize)>, Fault> {
     Ok(Some((meta.width as usize, meta.height as usize)))
 }
 
-pub(super) fn format(cloud: &PointCloud, kind: DataKind) -> Result<Vec<u8>, Fault> {
+pub(super) fn format(cloud: &PointCloud, kind: DataKind) -> Result<Vec<u8>, Malformed> {
     let fault =
-        |problem: String| Fault::new("cloud to write", problem, "write it in another format");
+        |problem: String| Malformed::new("cloud to write", problem, "write it in another format");
     let mut fields = vec![
         ("x", ValueKind::F32, 1),
         ("y", ValueKind::F32, 1),

@@ -10,14 +10,14 @@
 
 mod vertex;
 
-use super::check_claim;
+use super::claim::check_claim;
 use crate::PointCloud;
-use crate::error::Fault;
 use ply_rs_bw::parser::{Parser, Reader};
 use ply_rs_bw::ply::{
     Addable, ElementDef, Encoding, Header, PropertyDef, PropertyType, ScalarType,
 };
 use ply_rs_bw::writer::Writer;
+use pomona_files::Malformed;
 use vertex::{Slot, Vertex};
 
 const DAMAGED: &str = "write the cloud again; this file is cut short or damaged";
@@ -25,12 +25,12 @@ const SCHEMA: &str =
     "give a PLY file with `element vertex` and its properties x, y, z and perhaps red, green, blue";
 const ORGANISED: &str = "pomona organised";
 
-pub(super) fn parse(bytes: &[u8]) -> Result<PointCloud, Fault> {
+pub(super) fn parse(bytes: &[u8]) -> Result<PointCloud, Malformed> {
     let (header, body, header_lines) = parse_header(bytes)?;
     let vertex = header
         .elements
         .get("vertex")
-        .ok_or_else(|| Fault::new("PLY header", "no `element vertex`", SCHEMA))?;
+        .ok_or_else(|| Malformed::new("PLY header", "no `element vertex`", SCHEMA))?;
     for axis in ["x", "y", "z"] {
         let data_type = vertex
             .properties
@@ -38,7 +38,11 @@ pub(super) fn parse(bytes: &[u8]) -> Result<PointCloud, Fault> {
             .map(|property| &property.data_type);
         if !matches!(data_type, Some(PropertyType::Scalar(_))) {
             let problem = format!("no property `{axis}` of one number");
-            return Err(Fault::new("PLY header, element vertex", problem, SCHEMA));
+            return Err(Malformed::new(
+                "PLY header, element vertex",
+                problem,
+                SCHEMA,
+            ));
         }
     }
     check_sizes(&header, body.len())?;
@@ -84,7 +88,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<PointCloud, Fault> {
 }
 
 /// The header, the bytes behind it, and the number of its lines.
-fn parse_header(bytes: &[u8]) -> Result<(Header, &[u8], usize), Fault> {
+fn parse_header(bytes: &[u8]) -> Result<(Header, &[u8], usize), Malformed> {
     let mut lines = Lines {
         rest: bytes,
         line: 0,
@@ -93,7 +97,11 @@ fn parse_header(bytes: &[u8]) -> Result<(Header, &[u8], usize), Fault> {
     let (mut elements, mut properties) = (0, 0);
     loop {
         let Some(line) = lines.next_any() else {
-            return Err(Fault::new("PLY header", "no `end_header` line", DAMAGED));
+            return Err(Malformed::new(
+                "PLY header",
+                "no `end_header` line",
+                DAMAGED,
+            ));
         };
         let text = String::from_utf8_lossy(line);
         let text = text.trim();
@@ -109,14 +117,14 @@ fn parse_header(bytes: &[u8]) -> Result<(Header, &[u8], usize), Fault> {
     }
     let header = Parser::<Vertex>::new()
         .read_header(&mut Reader::new(plain.as_bytes()))
-        .map_err(|e| Fault::new("PLY header", one_line(&e.to_string()), SCHEMA))?;
+        .map_err(|e| Malformed::new("PLY header", one_line(&e.to_string()), SCHEMA))?;
     let kept: usize = header
         .elements
         .values()
         .map(|element| element.properties.len())
         .sum();
     if header.elements.len() != elements || kept != properties {
-        return Err(Fault::new(
+        return Err(Malformed::new(
             "PLY header",
             "an element or a property is named twice",
             SCHEMA,
@@ -131,11 +139,11 @@ fn one_line(message: &str) -> String {
 }
 
 /// Refuses elements, up to the vertices, that need more than the `available` bytes.
-fn check_sizes(header: &Header, available: usize) -> Result<(), Fault> {
+fn check_sizes(header: &Header, available: usize) -> Result<(), Malformed> {
     for element in header.elements.values() {
         if element.properties.is_empty() && element.count > 0 {
             let problem = format!("element `{}` has no property", element.name);
-            return Err(Fault::new("PLY header", problem, SCHEMA));
+            return Err(Malformed::new("PLY header", problem, SCHEMA));
         }
         let binary_size = |property: &PropertyDef| match &property.data_type {
             PropertyType::Scalar(kind) | PropertyType::List(kind, _) => scalar_size(kind),
@@ -197,7 +205,7 @@ enum Source<'a> {
 }
 
 impl Source<'_> {
-    fn next(&mut self, element: &ElementDef, index: usize) -> Result<Vertex, Fault> {
+    fn next(&mut self, element: &ElementDef, index: usize) -> Result<Vertex, Malformed> {
         let parser = Parser::<Vertex>::new();
         let read = match self {
             Self::Text(lines) => return lines.next_vertex(element, index),
@@ -206,7 +214,7 @@ impl Source<'_> {
         };
         read.map_err(|e| {
             let place = format!("{} {} of {}", element.name, index + 1, element.count);
-            Fault::new(place, one_line(&e.to_string()), DAMAGED)
+            Malformed::new(place, one_line(&e.to_string()), DAMAGED)
         })
     }
 }
@@ -235,7 +243,7 @@ impl<'a> Lines<'a> {
         Some(line)
     }
 
-    fn next_vertex(&mut self, element: &ElementDef, index: usize) -> Result<Vertex, Fault> {
+    fn next_vertex(&mut self, element: &ElementDef, index: usize) -> Result<Vertex, Malformed> {
         let line = loop {
             let Some(line) = self.next_any() else {
                 let problem = format!(
@@ -244,7 +252,11 @@ impl<'a> Lines<'a> {
                     index + 1,
                     element.count
                 );
-                return Err(Fault::new(format!("line {}", self.line), problem, DAMAGED));
+                return Err(Malformed::new(
+                    format!("line {}", self.line),
+                    problem,
+                    DAMAGED,
+                ));
             };
             if !line.trim_ascii().is_empty() {
                 break line;
@@ -252,11 +264,11 @@ impl<'a> Lines<'a> {
         };
         let text = String::from_utf8_lossy(line);
         Vertex::from_text(&text, element)
-            .map_err(|problem| Fault::new(format!("line {}", self.line), problem, DAMAGED))
+            .map_err(|problem| Malformed::new(format!("line {}", self.line), problem, DAMAGED))
     }
 }
 
-pub(super) fn format(cloud: &PointCloud, encoding: Encoding) -> Result<Vec<u8>, Fault> {
+pub(super) fn format(cloud: &PointCloud, encoding: Encoding) -> Result<Vec<u8>, Malformed> {
     let mut element = ElementDef::new("vertex".to_owned());
     element.count = cloud.len();
     for axis in ["x", "y", "z"] {
@@ -300,7 +312,7 @@ pub(super) fn format(cloud: &PointCloud, encoding: Encoding) -> Result<Vec<u8>, 
         });
     }
     written.map_err(|e| {
-        Fault::new(
+        Malformed::new(
             "cloud to write",
             e.to_string(),
             "write it in another format",

@@ -1,6 +1,7 @@
 //! What is written reads back, in every format and in every shape of cloud.
 
 use super::*;
+use pomona_files::FileError;
 use proptest::prelude::*;
 
 /// The same numbers, NaN being equal to NaN.
@@ -135,7 +136,7 @@ fn files_are_recognised_by_content_before_their_names() {
     );
     assert!(matches!(
         PointCloud::read(dir.path().join("no.pcd")),
-        Err(CloudError::Read { .. })
+        Err(CloudError::File(FileError::Read { .. }))
     ));
     assert_eq!(
         CloudFormat::from_path("a/b.PLY"),

@@ -4,15 +4,15 @@
 //! comments. A comment `pomona organised WIDTH HEIGHT` keeps the size of an organised cloud.
 
 use crate::PointCloud;
-use crate::error::Fault;
+use pomona_files::Malformed;
 use std::fmt::Write;
 
 const REMEDY: &str = "give `x y z` or `x y z r g b` on each line, in metres, with colours 0 to 255";
 const ORGANISED: &str = "pomona organised";
 
-pub(super) fn parse(bytes: &[u8]) -> Result<PointCloud, Fault> {
+pub(super) fn parse(bytes: &[u8]) -> Result<PointCloud, Malformed> {
     let text = std::str::from_utf8(bytes).map_err(|e| {
-        Fault::new(
+        Malformed::new(
             format!("byte {}", e.valid_up_to()),
             "not UTF-8 text",
             REMEDY,
@@ -22,7 +22,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<PointCloud, Fault> {
     let mut size = None;
     let mut columns = None;
     for (line, number) in text.trim_start_matches('\u{feff}').lines().zip(1..) {
-        let fault = |problem: String| Fault::new(format!("line {number}"), problem, REMEDY);
+        let fault = |problem: String| Malformed::new(format!("line {number}"), problem, REMEDY);
         let (data, comment) = split_comment(line);
         size = comment.and_then(organised_size).or(size);
         let mut values = [0.0; 6];

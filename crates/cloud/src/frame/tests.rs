@@ -1,5 +1,6 @@
 use super::*;
 use crate::Distortion;
+use pomona_files::FileError;
 
 fn frame() -> Frame {
     let readings = (0..48)
@@ -112,7 +113,7 @@ fn a_missing_part_is_named() {
     }
     assert!(matches!(
         Frame::read("/no/such/folder"),
-        Err(CloudError::Read { .. })
+        Err(CloudError::File(FileError::Read { .. }))
     ));
 }
 

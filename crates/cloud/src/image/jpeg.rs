@@ -1,6 +1,6 @@
-use super::check_claim;
+use super::claim::check_claim;
 use crate::ColorImage;
-use crate::error::Fault;
+use pomona_files::Malformed;
 use zune_jpeg::JpegDecoder;
 use zune_jpeg::zune_core::bytestream::ZCursor;
 use zune_jpeg::zune_core::colorspace::ColorSpace;
@@ -12,7 +12,7 @@ const PIXELS_PER_BYTE: usize = 512;
 
 type Decoder<'a> = JpegDecoder<ZCursor<&'a [u8]>>;
 
-pub(super) fn parse(bytes: &[u8]) -> Result<ColorImage, Fault> {
+pub(super) fn parse(bytes: &[u8]) -> Result<ColorImage, Malformed> {
     // The decoder takes a file that is cut short in its last rows.
     if !reaches_end(bytes) {
         return Err(fault(
@@ -35,12 +35,12 @@ pub(super) fn parse(bytes: &[u8]) -> Result<ColorImage, Fault> {
     })
 }
 
-pub(super) fn parse_size(bytes: &[u8]) -> Result<(usize, usize), Fault> {
+pub(super) fn parse_size(bytes: &[u8]) -> Result<(usize, usize), Malformed> {
     open(bytes).map(|(_, size)| size)
 }
 
 /// A decoder that has read the headers, and the size that they state.
-fn open(bytes: &[u8]) -> Result<(Decoder<'_>, (usize, usize)), Fault> {
+fn open(bytes: &[u8]) -> Result<(Decoder<'_>, (usize, usize)), Malformed> {
     // Without strict mode a file that is cut short comes back as a picture with a grey rest.
     let options = DecoderOptions::default()
         .set_strict_mode(true)
@@ -54,8 +54,8 @@ fn open(bytes: &[u8]) -> Result<(Decoder<'_>, (usize, usize)), Fault> {
     Ok((decoder, (width, height)))
 }
 
-fn fault(problem: String) -> Fault {
-    Fault::new(
+fn fault(problem: String) -> Malformed {
+    Malformed::new(
         "JPEG data",
         problem,
         "write the picture again, as baseline or progressive JPEG or as PNG",

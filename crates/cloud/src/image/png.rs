@@ -1,7 +1,7 @@
-use super::check_claim;
-use crate::error::Fault;
+use super::claim::check_claim;
 use crate::{ColorImage, DepthImage};
 use png::{BitDepth, ColorType, Decoder, Encoder, Reader, Transformations};
+use pomona_files::Malformed;
 use std::io::Cursor;
 
 /// Bits that one byte of a PNG can stand for at most: deflate shrinks by 1032 at best.
@@ -11,15 +11,15 @@ type PngReader<'a> = Reader<Cursor<&'a [u8]>>;
 
 // By value, as `map_err` hands errors over.
 #[allow(clippy::needless_pass_by_value)]
-fn fault(problem: impl ToString) -> Fault {
-    Fault::new(
+fn fault(problem: impl ToString) -> Malformed {
+    Malformed::new(
         "PNG data",
         problem.to_string(),
         "write the picture again; this file is damaged or no PNG",
     )
 }
 
-fn open(bytes: &[u8], transformations: Transformations) -> Result<PngReader<'_>, Fault> {
+fn open(bytes: &[u8], transformations: Transformations) -> Result<PngReader<'_>, Malformed> {
     let mut decoder = Decoder::new(Cursor::new(bytes));
     decoder.set_transformations(transformations);
     let header = decoder.read_header_info().map_err(fault)?;
@@ -33,7 +33,7 @@ fn open(bytes: &[u8], transformations: Transformations) -> Result<PngReader<'_>,
     decoder.read_info().map_err(fault)
 }
 
-fn pixel_bytes(reader: &mut PngReader<'_>) -> Result<Vec<u8>, Fault> {
+fn pixel_bytes(reader: &mut PngReader<'_>) -> Result<Vec<u8>, Malformed> {
     let size = reader
         .output_buffer_size()
         .ok_or_else(|| fault("too large for this machine"))?;
@@ -45,12 +45,12 @@ fn pixel_bytes(reader: &mut PngReader<'_>) -> Result<Vec<u8>, Fault> {
     Ok(data)
 }
 
-pub(super) fn parse_size(bytes: &[u8]) -> Result<(usize, usize), Fault> {
+pub(super) fn parse_size(bytes: &[u8]) -> Result<(usize, usize), Malformed> {
     let reader = open(bytes, Transformations::IDENTITY)?;
     Ok((reader.info().width as usize, reader.info().height as usize))
 }
 
-pub(crate) fn parse_color(bytes: &[u8]) -> Result<ColorImage, Fault> {
+pub(super) fn parse_color(bytes: &[u8]) -> Result<ColorImage, Malformed> {
     let mut reader = open(bytes, Transformations::EXPAND | Transformations::STRIP_16)?;
     let (width, height) = (reader.info().width as usize, reader.info().height as usize);
     let data = pixel_bytes(&mut reader)?;
@@ -84,7 +84,7 @@ pub(crate) fn parse_color(bytes: &[u8]) -> Result<ColorImage, Fault> {
     })
 }
 
-pub(crate) fn parse_depth(bytes: &[u8]) -> Result<DepthImage, Fault> {
+pub(super) fn parse_depth(bytes: &[u8]) -> Result<DepthImage, Malformed> {
     let mut reader = open(bytes, Transformations::IDENTITY)?;
     let (color, bits) = reader.output_color_type();
     if (color, bits) != (ColorType::Grayscale, BitDepth::Sixteen) {
@@ -93,7 +93,7 @@ pub(crate) fn parse_depth(bytes: &[u8]) -> Result<DepthImage, Fault> {
             bits as u8
         );
         let remedy = "store depth as 16-bit grey PNG in units of `depth_scale`; a coloured or 8-bit picture of depth has lost it";
-        return Err(Fault::new("PNG header", problem, remedy));
+        return Err(Malformed::new("PNG header", problem, remedy));
     }
     let (width, height) = (reader.info().width as usize, reader.info().height as usize);
     let data = pixel_bytes(&mut reader)?;
@@ -116,7 +116,7 @@ pub(crate) fn parse_depth(bytes: &[u8]) -> Result<DepthImage, Fault> {
     })
 }
 
-pub(crate) fn format_color(image: &ColorImage) -> Result<Vec<u8>, Fault> {
+pub(super) fn format_color(image: &ColorImage) -> Result<Vec<u8>, Malformed> {
     let data = image.pixels.as_flattened();
     encode(
         image.width,
@@ -127,7 +127,7 @@ pub(crate) fn format_color(image: &ColorImage) -> Result<Vec<u8>, Fault> {
     )
 }
 
-pub(crate) fn format_depth(image: &DepthImage) -> Result<Vec<u8>, Fault> {
+pub(super) fn format_depth(image: &DepthImage) -> Result<Vec<u8>, Malformed> {
     let data: Vec<u8> = image
         .readings
         .iter()
@@ -143,9 +143,9 @@ fn encode(
     pixel_count: usize,
     data: &[u8],
     (color, bits): (ColorType, BitDepth),
-) -> Result<Vec<u8>, Fault> {
+) -> Result<Vec<u8>, Malformed> {
     let fault = |problem: String| {
-        Fault::new(
+        Malformed::new(
             "image to write",
             problem,
             "give an image with as many pixels as its size says",

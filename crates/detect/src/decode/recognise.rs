@@ -1,14 +1,10 @@
-use super::{USUAL_STRIDES, cells, yolov3, yolov3_nms, yolov5, yolov8};
-use crate::{Family, ModelDescription, Port, fault::Fault};
-
-/// Strides of the grids that these networks come with.
-pub(super) const GRIDS: [&[usize]; 4] =
-    [USUAL_STRIDES, &[8, 16, 32, 64], &[4, 8, 16, 32], &[16, 32]];
-
-/// The output that holds rows of boxes: the first with three axes.
-pub(super) fn flat_output(outputs: &[Port]) -> Option<usize> {
-    outputs.iter().position(|port| port.shape.len() == 3)
-}
+use super::{
+    grids::{GRIDS, USUAL_STRIDES, cells},
+    table::rows_output,
+    yolov3, yolov3_nms, yolov5, yolov8,
+};
+use crate::{description::ModelDescription, family::Family};
+use pomona_network::{ModelFault, Port};
 
 /// The family of a network with these inputs and outputs.
 ///
@@ -21,39 +17,39 @@ pub(crate) fn recognise(
     outputs: &[Port],
     input: Option<[usize; 2]>,
     description: &ModelDescription,
-) -> Result<Family, Fault> {
+) -> Result<Family, ModelFault> {
     if let Some(family) = description.family {
         return Ok(family);
     }
     if inputs.len() == 2 && yolov3_nms::roles(outputs).is_some() {
         return Ok(Family::YoloV3Nms);
     }
-    if let Some(k) = flat_output(outputs) {
-        return flat_family(&outputs[k], input, description);
+    if let Some(k) = rows_output(outputs) {
+        return rows_family(&outputs[k], input, description);
     }
     let grid = |port: &Port| matches!(port.shape.len(), 4 | 5);
     if !outputs.is_empty() && outputs.iter().all(grid) {
         return Ok(Family::YoloV3);
     }
     let shown: Vec<String> = outputs.iter().map(show).collect();
-    Err(Fault::new(
+    Err(ModelFault::new(
         "outputs",
         format!("{} are those of no known family", shown.join(", ")),
         "export the model without suppression inside, or state its `family` in the description beside it",
     ))
 }
 
-fn flat_family(
+fn rows_family(
     output: &Port,
     input: Option<[usize; 2]>,
     description: &ModelDescription,
-) -> Result<Family, Fault> {
+) -> Result<Family, ModelFault> {
     let unknown = |problem: &str| {
         let size = input.map_or_else(String::new, |[w, h]| format!(" of a {w}x{h} input"));
         let problem = format!("{}{size}: {problem}", show(output));
         let remedy = "state `family`, and `input_size` or `strides` where they are unusual, in the \
             description beside the model";
-        Err(Fault::new("outputs", problem, remedy))
+        Err(ModelFault::new("outputs", problem, remedy))
     };
     let grids = description.strides.as_deref();
     let on_grid = |rows: usize, times: usize| {
@@ -100,11 +96,11 @@ pub(crate) fn class_count(
 ) -> Option<usize> {
     match family {
         Family::YoloV5 | Family::YoloX => {
-            let columns = (*outputs[flat_output(outputs)?].shape.last()?)?;
+            let columns = (*outputs[rows_output(outputs)?].shape.last()?)?;
             Some(columns.checked_sub(yolov5::BEFORE_CLASSES)?.max(1))
         }
         Family::YoloV8 => {
-            let columns = match outputs[flat_output(outputs)?].shape[1..] {
+            let columns = match outputs[rows_output(outputs)?].shape[1..] {
                 [Some(first), Some(second)] => {
                     let classes = description.classes.as_ref().map(Vec::len);
                     let first_is = yolov8::columns_first([first, second], Some(input), classes);
@@ -136,9 +132,7 @@ pub(crate) fn class_count(
     }
 }
 
-/// An output's name and shape, open axes as `?`.
+/// An output's name and shape.
 fn show(port: &Port) -> String {
-    let side = |side: &Option<usize>| side.map_or_else(|| "?".to_owned(), |side| side.to_string());
-    let shape: Vec<String> = port.shape.iter().map(side).collect();
-    format!("`{}` [{}]", port.name, shape.join(", "))
+    format!("`{}` {}", port.name, port.shape_text())
 }

@@ -1,4 +1,4 @@
-use crate::{Tensor, fault::Fault};
+use pomona_network::{ModelFault, Port, Tensor};
 
 /// An output seen as rows of numbers, whichever axis comes first in memory.
 #[derive(Clone, Copy)]
@@ -12,7 +12,7 @@ pub(super) struct Table<'a> {
 
 impl<'a> Table<'a> {
     /// Of an output `[1, rows, columns]`, or one without its first axis.
-    pub(super) fn new(tensor: &'a Tensor) -> Result<Self, Fault> {
+    pub(super) fn new(tensor: &'a Tensor) -> Result<Self, ModelFault> {
         check_length(tensor)?;
         match tensor.shape[..] {
             [1, rows, columns] | [rows, columns] => Ok(Self {
@@ -22,7 +22,7 @@ impl<'a> Table<'a> {
                 row_step: columns,
                 column_step: 1,
             }),
-            _ => Err(Fault::new(
+            _ => Err(ModelFault::new(
                 place(tensor),
                 format!(
                     "its shape is {:?}, not one image's rows of numbers",
@@ -55,13 +55,18 @@ impl<'a> Table<'a> {
     }
 }
 
+/// The output that holds rows of boxes: the first with three axes.
+pub(super) fn rows_output(outputs: &[Port]) -> Option<usize> {
+    outputs.iter().position(|port| port.shape.len() == 3)
+}
+
 /// Where in the model an output is.
 pub(super) fn place(tensor: &Tensor) -> String {
     format!("output `{}`", tensor.name)
 }
 
 /// Refuses a tensor that does not hold as many numbers as its shape says.
-pub(super) fn check_length(tensor: &Tensor) -> Result<(), Fault> {
+pub(super) fn check_length(tensor: &Tensor) -> Result<(), ModelFault> {
     let length = tensor
         .shape
         .iter()
@@ -69,9 +74,9 @@ pub(super) fn check_length(tensor: &Tensor) -> Result<(), Fault> {
     if length == Some(tensor.data.len()) {
         return Ok(());
     }
-    Err(Fault::new(
+    Err(ModelFault::new(
         place(tensor),
         format!("{} numbers for shape {:?}", tensor.data.len(), tensor.shape),
-        "use another runtime",
+        "choose the other runtime",
     ))
 }

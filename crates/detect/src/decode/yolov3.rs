@@ -1,8 +1,15 @@
-use super::table::check_length;
-use super::{Decoder, found::Found, table};
-use crate::{Detection, Tensor, fault::Fault};
+use super::{
+    collector::Collector,
+    decoder::Decoder,
+    table::{self, check_length},
+};
+use crate::detection::Detection;
+use pomona_network::{ModelFault, Tensor};
 
-/// Numbers to an anchor before the classes: box, and how sure that there is anything.
+/// Place of the objectness among an anchor's numbers.
+const OBJECTNESS: usize = 4;
+
+/// Numbers to an anchor before the classes: box and objectness.
 const BEFORE_CLASSES: usize = 5;
 
 /// `YOLOv3`'s anchors in pixels, those of the finest grid first (arXiv 1804.02767, section 2.3).
@@ -18,7 +25,7 @@ const ANCHORS: [[f32; 2]; 9] = [
     [373.0, 326.0],
 ];
 
-/// `YOLOv3-tiny`'s, as its authors' configuration has them.
+/// `YOLOv3-tiny`'s, from its authors' configuration (`yolov3-tiny.cfg` of darknet).
 const TINY_ANCHORS: [[f32; 2]; 6] = [
     [10.0, 14.0],
     [23.0, 27.0],
@@ -94,18 +101,25 @@ impl Head {
 }
 
 /// The anchors of each cell on each of so many grids, those of the finest grid first.
-pub(super) fn anchors(heads: usize, described: Option<&[[f32; 2]]>) -> Result<&[[f32; 2]], Fault> {
+pub(super) fn anchors(
+    heads: usize,
+    described: Option<&[[f32; 2]]>,
+) -> Result<&[[f32; 2]], ModelFault> {
     let anchors = match (described, heads) {
         (Some(anchors), _) => anchors,
         (None, 3) => &ANCHORS[..],
         (None, 2) => &TINY_ANCHORS[..],
         (None, _) => {
             let problem = format!("{heads} grids, for which there are no usual anchors");
-            return Err(Fault::new("outputs", problem, "list the model's `anchors`"));
+            return Err(ModelFault::new(
+                "outputs",
+                problem,
+                "list the model's `anchors`",
+            ));
         }
     };
     if heads == 0 || anchors.is_empty() || anchors.len() % heads != 0 {
-        return Err(Fault::new(
+        return Err(ModelFault::new(
             "`anchors`",
             format!("{} of them for {heads} grids", anchors.len()),
             "list the anchors of every grid, as many for each, those of the finest grid first",
@@ -114,7 +128,7 @@ pub(super) fn anchors(heads: usize, described: Option<&[[f32; 2]]>) -> Result<&[
     Ok(anchors)
 }
 
-pub(super) fn decode(decoder: &Decoder, outputs: &[Tensor]) -> Result<Vec<Detection>, Fault> {
+pub(super) fn decode(decoder: &Decoder, outputs: &[Tensor]) -> Result<Vec<Detection>, ModelFault> {
     let anchors = anchors(outputs.len(), decoder.anchors.as_deref())?;
     let per_cell = anchors.len() / outputs.len();
     let mut heads = Vec::with_capacity(outputs.len());
@@ -123,7 +137,7 @@ pub(super) fn decode(decoder: &Decoder, outputs: &[Tensor]) -> Result<Vec<Detect
         let strides = decoder.strides.as_deref();
         let head = Head::new(&tensor.shape, per_cell, decoder.input, strides).ok_or_else(|| {
             let [width, height] = decoder.input;
-            Fault::new(
+            ModelFault::new(
                 table::place(tensor),
                 format!(
                     "its shape {:?} is no grid of a {width}x{height} input with {per_cell} anchors to a cell",
@@ -141,13 +155,13 @@ pub(super) fn decode(decoder: &Decoder, outputs: &[Tensor]) -> Result<Vec<Detect
         .find(|pair| pair[0].0.stride == pair[1].0.stride)
     {
         let problem = format!("the same grid as output `{}`", pair[0].1.name);
-        return Err(Fault::new(
+        return Err(ModelFault::new(
             table::place(pair[1].1),
             problem,
             "state the model's `family`",
         ));
     }
-    let mut found = Found::new(decoder);
+    let mut found = Collector::new(decoder);
     for ((head, tensor), anchors) in heads.iter().zip(anchors.chunks_exact(per_cell)) {
         decode_head(head, &tensor.data, anchors, decoder.class, &mut found);
     }
@@ -155,7 +169,13 @@ pub(super) fn decode(decoder: &Decoder, outputs: &[Tensor]) -> Result<Vec<Detect
 }
 
 /// arXiv 1804.02767, section 2.1: centres by a sigmoid within their cell, sizes by an exponential times the anchor's.
-fn decode_head(head: &Head, data: &[f32], anchors: &[[f32; 2]], class: usize, found: &mut Found) {
+fn decode_head(
+    head: &Head,
+    data: &[f32],
+    anchors: &[[f32; 2]],
+    class: usize,
+    found: &mut Collector,
+) {
     let [anchor_step, number_step, row_step, column_step] = head.steps;
     let stride = head.stride as f32;
     for (a, anchor) in anchors.iter().enumerate() {
@@ -163,8 +183,8 @@ fn decode_head(head: &Head, data: &[f32], anchors: &[[f32; 2]], class: usize, fo
             for u in 0..head.columns {
                 let start = a * anchor_step + v * row_step + u * column_step;
                 let number = |k: usize| data[start + k * number_step];
-                let something = sigmoid(number(4));
-                if !found.counts(something) {
+                let objectness = sigmoid(number(OBJECTNESS));
+                if !found.counts(objectness) {
                     continue;
                 }
                 let centre = [
@@ -172,7 +192,7 @@ fn decode_head(head: &Head, data: &[f32], anchors: &[[f32; 2]], class: usize, fo
                     (sigmoid(number(1)) + v as f32) * stride,
                 ];
                 let size = [number(2).exp() * anchor[0], number(3).exp() * anchor[1]];
-                let score = something * sigmoid(number(BEFORE_CLASSES + class));
+                let score = objectness * sigmoid(number(BEFORE_CLASSES + class));
                 found.add_centred([centre[0], centre[1], size[0], size[1]], score);
             }
         }

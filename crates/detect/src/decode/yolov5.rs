@@ -1,16 +1,24 @@
-use super::table::Table;
-use super::{Decoder, USUAL_STRIDES, cells, found::Found, table};
-use crate::{Detection, Tensor, description::Coordinates, fault::Fault};
+use super::{
+    collector::Collector,
+    decoder::Decoder,
+    grids::{USUAL_STRIDES, cells},
+    table::{self, Table},
+};
+use crate::{detection::Detection, family::Coordinates};
+use pomona_network::{ModelFault, Tensor};
 
-/// Columns before the classes: box, and how sure that there is anything.
+/// Column of the objectness: how sure the network is that there is anything.
+pub(super) const OBJECTNESS: usize = 4;
+
+/// Columns before the classes: box and objectness.
 pub(super) const BEFORE_CLASSES: usize = 5;
 
-/// Above this, coordinates are pixels. Every cell reports a centre, so that among the rows of a network that counts
-/// in pixels there are always centres far beyond; among shares of the input there are none.
+/// Largest centre of a box in shares of the input; with any beyond it, coordinates are pixels. Every cell reports a
+/// centre, so that a network that counts in pixels always has some far beyond 2, and one that gives shares none.
 const LARGEST_SHARE: f32 = 2.0;
 
-pub(super) fn decode(decoder: &Decoder, outputs: &[Tensor]) -> Result<Vec<Detection>, Fault> {
-    let tensor = decoder.flat(outputs)?;
+pub(super) fn decode(decoder: &Decoder, outputs: &[Tensor]) -> Result<Vec<Detection>, ModelFault> {
+    let tensor = decoder.rows(outputs)?;
     let table = Table::new(tensor)?;
     let place = table::place(tensor);
     if table.columns < BEFORE_CLASSES {
@@ -18,13 +26,17 @@ pub(super) fn decode(decoder: &Decoder, outputs: &[Tensor]) -> Result<Vec<Detect
             "{} columns; {} has 5 and the classes",
             table.columns, decoder.family
         );
-        return Err(Fault::new(place, problem, "state the model's `family`"));
+        return Err(ModelFault::new(
+            place,
+            problem,
+            "state the model's `family`",
+        ));
     }
-    // Without a column for a class, that anything is there is all that there is to say.
+    // Without a column for a class, the objectness is the score.
     let classes = table.columns - BEFORE_CLASSES;
     decoder.check_classes(&place, classes.max(1))?;
     if !decoder.stated && table.rows == cells(decoder.input, USUAL_STRIDES) {
-        return Err(Fault::new(
+        return Err(ModelFault::new(
             place,
             format!(
                 "its shape {:?} is that of yolox, where it was left open before",
@@ -34,10 +46,10 @@ pub(super) fn decode(decoder: &Decoder, outputs: &[Tensor]) -> Result<Vec<Detect
         ));
     }
     let [width, height] = scale(decoder, &table);
-    let mut found = Found::new(decoder);
+    let mut found = Collector::new(decoder);
     for row in 0..table.rows {
-        let something = table.get(row, 4);
-        if !found.counts(something) {
+        let objectness = table.get(row, OBJECTNESS);
+        if !found.counts(objectness) {
             continue;
         }
         let class = if classes == 0 {
@@ -48,13 +60,13 @@ pub(super) fn decode(decoder: &Decoder, outputs: &[Tensor]) -> Result<Vec<Detect
         let [x, y, w, h] = table.first_four(row);
         found.add_centred(
             [x * width, y * height, w * width, h * height],
-            something * class,
+            objectness * class,
         );
     }
     Ok(found.detections)
 }
 
-/// What decoded coordinates are multiplied with.
+/// What decoded coordinates are multiplied by.
 pub(super) fn scale(decoder: &Decoder, table: &Table<'_>) -> [f32; 2] {
     let coordinates = decoder.coordinates.unwrap_or_else(|| {
         let centre = |row| table.get(row, 0).max(table.get(row, 1));

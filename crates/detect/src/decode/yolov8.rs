@@ -1,12 +1,18 @@
-use super::table::Table;
-use super::{Decoder, cells, found::Found, recognise::GRIDS, table, yolov5};
-use crate::{Detection, Tensor, fault::Fault};
+use super::{
+    collector::Collector,
+    decoder::Decoder,
+    grids::{GRIDS, cells},
+    table::{self, Table},
+    yolov5,
+};
+use crate::detection::Detection;
+use pomona_network::{ModelFault, Tensor};
 
 /// Columns before the classes: the box.
 pub(super) const BEFORE_CLASSES: usize = 4;
 
-pub(super) fn decode(decoder: &Decoder, outputs: &[Tensor]) -> Result<Vec<Detection>, Fault> {
-    let tensor = decoder.flat(outputs)?;
+pub(super) fn decode(decoder: &Decoder, outputs: &[Tensor]) -> Result<Vec<Detection>, ModelFault> {
+    let tensor = decoder.rows(outputs)?;
     let mut table = Table::new(tensor)?;
     let place = table::place(tensor);
     if columns_first(
@@ -21,11 +27,15 @@ pub(super) fn decode(decoder: &Decoder, outputs: &[Tensor]) -> Result<Vec<Detect
             "{} numbers to a box; yolov8 has 4 and the classes",
             table.columns
         );
-        return Err(Fault::new(place, problem, "state the model's `family`"));
+        return Err(ModelFault::new(
+            place,
+            problem,
+            "state the model's `family`",
+        ));
     }
     decoder.check_classes(&place, table.columns - BEFORE_CLASSES)?;
     let [width, height] = yolov5::scale(decoder, &table);
-    let mut found = Found::new(decoder);
+    let mut found = Collector::new(decoder);
     for row in 0..table.rows {
         let score = table.get(row, BEFORE_CLASSES + decoder.class);
         if found.counts(score) {
@@ -36,9 +46,9 @@ pub(super) fn decode(decoder: &Decoder, outputs: &[Tensor]) -> Result<Vec<Detect
     Ok(found.detections)
 }
 
-/// Whether an output of this shape holds the numbers of a box along its first axis: as the family does, unless the
-/// second axis alone agrees with the number of classes, or the first alone with the grids. Where nothing else tells,
-/// there are more boxes than numbers to one.
+/// Whether an output of this shape holds the numbers of a box along its first axis, as the family does, unless only the
+/// second axis agrees with the number of classes, or only the first with the grids. Where neither decides, the shorter
+/// axis is taken: there are more boxes than numbers to a box.
 pub(super) fn columns_first(
     [first, second]: [usize; 2],
     input: Option<[usize; 2]>,

@@ -145,7 +145,7 @@ fn nonsense_goes() {
 }
 
 /// Section 3 of the paper over every pair, with our weights: what whole boxes become.
-fn oracle(mut boxes: Vec<(Detection, f64)>, overlap: f64) -> Vec<Detection> {
+fn oracle(mut boxes: Vec<(Detection, f64)>, nms_iou: f64) -> Vec<Detection> {
     boxes.sort_by(|a, b| best_first(&a.0, &b.0).then_with(|| b.1.total_cmp(&a.1)));
     let mut clusters: Vec<Vec<(Detection, f64)>> = Vec::new();
     let mean = |members: &[(Detection, f64)]| {
@@ -167,7 +167,7 @@ fn oracle(mut boxes: Vec<(Detection, f64)>, overlap: f64) -> Vec<Detection> {
         for (k, cluster) in clusters.iter().enumerate() {
             let iou = mean(cluster).iou(&one.0);
             let same = cluster[0].0.class == one.0.class;
-            if same && iou > overlap && best.is_none_or(|(most, _)| iou > most) {
+            if same && iou > nms_iou && best.is_none_or(|(most, _)| iou > most) {
                 best = Some((iou, k));
             }
         }
@@ -177,7 +177,7 @@ fn oracle(mut boxes: Vec<(Detection, f64)>, overlap: f64) -> Vec<Detection> {
         }
     }
     let mut fused: Vec<Detection> = clusters.iter().map(|members| mean(members)).collect();
-    suppress(&mut fused, overlap, Scope::PerClass);
+    suppress(&mut fused, nms_iou, Scope::PerClass);
     fused
 }
 
@@ -204,12 +204,12 @@ proptest! {
     fn whole_boxes_become_the_weighted_means_of_the_paper(
         near_boxes in boxes(),
         far_boxes in boxes(),
-        overlap in 0.1..0.9,
+        nms_iou in 0.1..0.9,
     ) {
         let views = [view(WHOLE, 1.0, &near_boxes), view(WHOLE, 0.5, &far_boxes)];
-        let fused = fuse(&views, IMAGE, overlap);
+        let fused = fuse(&views, IMAGE, nms_iou);
         let all = near_boxes.iter().map(|d| (*d, 1.0));
-        let expected = oracle(all.chain(far_boxes.iter().map(|d| (*d, 0.5))).collect(), overlap);
+        let expected = oracle(all.chain(far_boxes.iter().map(|d| (*d, 0.5))).collect(), nms_iou);
         prop_assert_eq!(fused.len(), expected.len());
         for (found, expected) in fused.iter().zip(&expected) {
             prop_assert!(near(found, expected), "{:?} {:?}", found, expected);
@@ -221,7 +221,7 @@ proptest! {
         left in boxes(),
         right in boxes(),
         whole in boxes(),
-        overlap in 0.1..0.9,
+        nms_iou in 0.1..0.9,
     ) {
         let inside = |boxes: &[Detection], window: [usize; 4]| -> Vec<Detection> {
             let window = seen(window.map(|edge| edge as f64), 0.0);
@@ -232,10 +232,10 @@ proptest! {
             view(RIGHT, 1.0, &inside(&right, RIGHT)),
             view(WHOLE, 0.5, &whole),
         ];
-        let fused = fuse(&views, IMAGE, overlap);
+        let fused = fuse(&views, IMAGE, nms_iou);
         for (k, a) in fused.iter().enumerate() {
             for b in &fused[..k] {
-                prop_assert!(a.class != b.class || a.iou(b) <= overlap);
+                prop_assert!(a.class != b.class || a.iou(b) <= nms_iou);
                 prop_assert!(a.score <= b.score);
             }
         }
@@ -243,6 +243,6 @@ proptest! {
         for view in &mut views {
             view.detections.reverse();
         }
-        prop_assert_eq!(&fused, &fuse(&views, IMAGE, overlap));
+        prop_assert_eq!(&fused, &fuse(&views, IMAGE, nms_iou));
     }
 }

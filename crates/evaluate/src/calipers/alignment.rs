@@ -1,7 +1,7 @@
 use super::rigid::align;
-use crate::statistics::Summary;
 use nalgebra::{Isometry3, Point3};
-use pomona::Record;
+use pomona::FrameAnswer;
+use pomona_statistics::Summary;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -51,7 +51,7 @@ pub struct AlignedApple {
 }
 
 impl Alignment {
-    pub(super) fn of(first: &Record, second: &Record) -> Self {
+    pub(super) fn of(first: &FrameAnswer, second: &FrameAnswer) -> Self {
         let (a, b) = (centers(first), centers(second));
         let names: Vec<&str> = a
             .keys()
@@ -61,8 +61,8 @@ impl Alignment {
         let from: Vec<Point3<f64>> = names.iter().map(|name| a[name]).collect();
         let to: Vec<Point3<f64>> = names.iter().map(|name| b[name]).collect();
         let mut alignment = Self {
-            first: first.frame.id.clone(),
-            second: second.frame.id.clone(),
+            first: first.id.clone(),
+            second: second.id.clone(),
             shared: names.len(),
             fitted: 0,
             distance: None,
@@ -97,13 +97,13 @@ impl Alignment {
 }
 
 /// The centres by box name; a name that a frame bears twice says nothing.
-fn centers(record: &Record) -> BTreeMap<&str, Point3<f64>> {
+fn centers(answer: &FrameAnswer) -> BTreeMap<&str, Point3<f64>> {
     let mut centers = BTreeMap::new();
     let mut twice = Vec::new();
-    for pick in &record.picks {
-        let name = pick.pixel_box.name.as_str();
-        if let Some(apple) = &pick.apple
-            && centers.insert(name, Point3::from(apple.center)).is_some()
+    for answer in &answer.apples {
+        let name = answer.bounds.name.as_str();
+        if let Some(apple) = &answer.apple
+            && centers.insert(name, apple.center.point()).is_some()
         {
             twice.push(name);
         }

@@ -1,8 +1,10 @@
-use super::html::{escape, figures, page, paragraph, table};
-use super::number::{UNKNOWN, mean_with_interval, mm, or_unknown};
-use super::plot::{Axis, FAINT, GREEN, Marks, OURS, Series, from_zero, plot};
+use super::colors::{FAINT, OURS};
 use super::spread::{SIZE, radius};
-use crate::{Alignment, CaliperReport, CaliperResult, EvaluateError};
+use crate::calipers::{Alignment, CaliperReport, CaliperResult};
+use crate::error::EvaluateError;
+use pomona_report::html::{escape, figures, page, paragraph, table};
+use pomona_report::number::{UNKNOWN, mean_with_interval, mm, or_unknown};
+use pomona_report::plot::{Axis, GREEN, Marks, PlotError, Series, from_zero, plot};
 
 /// A self-contained page of fitted radii beside measured ones.
 ///
@@ -21,7 +23,7 @@ pub fn caliper_page(report: &CaliperReport) -> Result<String, EvaluateError> {
     Ok(page("Radii against calipers", &body))
 }
 
-fn method(result: &CaliperResult) -> Result<String, EvaluateError> {
+fn method(result: &CaliperResult) -> Result<String, PlotError> {
     let mut text = format!("<h2>Method {}</h2>\n", escape(&result.method));
     let count = result.radius_error.as_ref().map_or(0, |s| s.count);
     text += &table(
@@ -146,7 +148,7 @@ fn consistency(alignment: &Alignment) -> String {
     ))
 }
 
-fn distances(alignment: &Alignment) -> Result<String, EvaluateError> {
+fn distances(alignment: &Alignment) -> Result<String, PlotError> {
     let mut sorted: Vec<(f64, bool)> = alignment
         .apples
         .iter()

@@ -1,11 +1,13 @@
-use super::html::{figures, table};
-use super::number::{degrees, mean_with_interval, or_unknown, with_interval};
-use super::plot::{Axis, FAINT, Marks, OURS, Series, plot, range_of};
+use super::colors::{FAINT, OURS};
 use super::spread::SIZE;
-use crate::{AppleRow, Difficulty, EvaluateError, Group, Grouping, SuiteResult};
+use crate::apple_row::AppleRow;
+use crate::suite::{Difficulty, Group, Grouping, SuiteResult};
+use pomona_report::html::{figures, table};
+use pomona_report::number::{degrees, mean_with_interval, mm, or_unknown, with_interval};
+use pomona_report::plot::{Axis, Marks, PlotError, Series, plot, range_of};
 
 /// Errors against what makes an apple hard: a plot and a table for each grouping of more than one group.
-pub(super) fn section(result: &SuiteResult, rows: &[&AppleRow]) -> Result<String, EvaluateError> {
+pub(super) fn section(result: &SuiteResult, rows: &[&AppleRow]) -> Result<String, PlotError> {
     let groupings: Vec<&Grouping> = result
         .groupings
         .iter()
@@ -78,13 +80,11 @@ fn line(by: Difficulty, group: &Group) -> Vec<String> {
         or_unknown(angle, |a| degrees(a.error.median)),
         or_unknown(angle, |a| with_interval(&a.within_10_deg)),
         or_unknown(angle, |a| with_interval(&a.at_least_50_deg)),
-        or_unknown(group.center_error.as_ref(), |s| {
-            mean_with_interval(s, super::number::mm)
-        }),
+        or_unknown(group.center_error.as_ref(), |s| mean_with_interval(s, mm)),
     ]
 }
 
-fn draw(grouping: &Grouping, rows: &[&AppleRow]) -> Result<String, EvaluateError> {
+fn draw(grouping: &Grouping, rows: &[&AppleRow]) -> Result<String, PlotError> {
     let (name, unit, per_si) = words(grouping.by);
     let dots: Vec<(f64, f64)> = rows
         .iter()

@@ -1,10 +1,12 @@
-use super::html::{figures, heading, paragraph, table};
-use super::number::{degrees, mm, or_unknown};
-use super::plot::{Axis, Marks, OURS, PAPER, Series, from_zero, plot};
-use crate::{EvaluateError, LabRow, SuiteResult};
+use super::colors::{OURS, PAPER};
+use crate::paper_figures::LAB_RADIUS;
+use crate::suite::{LabRow, SuiteResult};
+use pomona_report::html::{figures, heading, paragraph, table};
+use pomona_report::number::{degrees, mm, or_unknown};
+use pomona_report::plot::{Axis, Marks, PlotError, Series, from_zero, plot};
 
 /// Tables 1–3, and a plot of all fifteen; empty where the suite is not the lab's.
-pub(super) fn section(result: &SuiteResult) -> Result<String, EvaluateError> {
+pub(super) fn section(result: &SuiteResult) -> Result<String, PlotError> {
     if result.lab.is_empty() {
         return Ok(String::new());
     }
@@ -41,10 +43,11 @@ pub(super) fn section(result: &SuiteResult) -> Result<String, EvaluateError> {
             &rows,
         );
     }
-    text += &paragraph(
-        "True radius 25.78 mm. The paper's vector for x = −90° is misprinted: its norm is 1.166 and it lies 34.2° off, \
+    text += &paragraph(&format!(
+        "True radius {} mm. The paper's vector for x = −90° is misprinted: its norm is 1.166 and it lies 34.2° off, \
          not the 5.23° printed beside it.",
-    );
+        mm(LAB_RADIUS)
+    ));
     let caption = "Angle error of each orientation: ours red, from the least to the largest draw with the mean; the paper's blue.";
     text += &figures(1, &[(draw(&result.lab)?, caption.to_owned())]);
     Ok(text)
@@ -72,7 +75,7 @@ fn line(row: &LabRow) -> Vec<String> {
     ]
 }
 
-fn draw(rows: &[LabRow]) -> Result<String, EvaluateError> {
+fn draw(rows: &[LabRow]) -> Result<String, PlotError> {
     let place = |i: usize| i as f64 + 1.0;
     let ours: Vec<(f64, f64, f64, f64)> = rows
         .iter()

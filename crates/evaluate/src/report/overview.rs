@@ -1,7 +1,9 @@
-use super::html::{paragraph, table};
-use super::number::{degrees, mean_with_interval, mm, or_unknown, percent, with_interval};
+use crate::evaluation::Evaluation;
 use crate::paper_figures::{PaperTime, TIME_DETECTION, TIME_LINE, TIME_SPHERE, TIME_TOTAL};
-use crate::{Evaluation, Spread, SuiteResult};
+use crate::suite::{AngleErrors, SuiteResult};
+use pomona_report::html::{paragraph, table};
+use pomona_report::number::{degrees, mean_with_interval, mm, or_unknown, percent, with_interval};
+use pomona_statistics::MeanSd;
 
 /// Every suite under every method in two tables, and the methods in pairs.
 pub(super) fn tables(evaluation: &Evaluation) -> String {
@@ -11,7 +13,7 @@ pub(super) fn tables(evaluation: &Evaluation) -> String {
         .iter()
         .map(|result| {
             let angle = result.angle.as_ref();
-            let of = |form: &dyn Fn(&crate::AngleErrors) -> String| or_unknown(angle, form);
+            let of = |form: &dyn Fn(&AngleErrors) -> String| or_unknown(angle, form);
             vec![
                 name(result),
                 result.apples.to_string(),
@@ -146,7 +148,7 @@ pub(super) fn timing(result: &SuiteResult) -> String {
     let Some(timing) = &result.timing_ms else {
         return String::new();
     };
-    let row = |name: &str, paper: PaperTime, ours: Option<Spread>| {
+    let row = |name: &str, paper: PaperTime, ours: Option<MeanSd>| {
         vec![
             name.to_owned(),
             format!("{:.0}", 1000.0 * paper.mean_s),

@@ -1,9 +1,12 @@
-use super::html::{figures, heading, paragraph, table};
-use super::number::{degrees, or_unknown, percent, with_interval};
-use super::plot::{Axis, FAINT, GREEN, Marks, OURS, Series, from_zero, plot};
+use super::colors::{FAINT, OURS};
 use super::spread::SIZE;
-use crate::reliability::RIGHT_RAD;
-use crate::{AppleRow, EvaluateError, Evaluation, Reliability, SuiteResult};
+use crate::apple_row::AppleRow;
+use crate::evaluation::Evaluation;
+use crate::suite::{RIGHT_RAD, Reliability, SuiteResult};
+use pomona_report::html::{figures, heading, paragraph, table};
+use pomona_report::number::{degrees, or_unknown, percent, with_interval};
+use pomona_report::plot::{Axis, GREEN, Marks, PlotError, Rgb, Series, from_zero, plot};
+use pomona_statistics::Proportion;
 
 /// Largest ratio of error and standard deviation that is drawn.
 const RATIO_TOP: f64 = 5.0;
@@ -62,7 +65,7 @@ pub(super) fn overview(evaluation: &Evaluation) -> String {
 }
 
 /// The diagram, the curve and the tables of one suite and method; empty where it says nothing of how sure it is.
-pub(super) fn section(result: &SuiteResult, rows: &[&AppleRow]) -> Result<String, EvaluateError> {
+pub(super) fn section(result: &SuiteResult, rows: &[&AppleRow]) -> Result<String, PlotError> {
     let Some(own) = &result.reliability else {
         return Ok(String::new());
     };
@@ -136,7 +139,7 @@ pub(super) fn section(result: &SuiteResult, rows: &[&AppleRow]) -> Result<String
         ))
 }
 
-fn counted(share: &crate::Share) -> String {
+fn counted(share: &Proportion) -> String {
     if share.of == 0 {
         return "0 of 0".to_owned();
     }
@@ -148,14 +151,14 @@ fn counted(share: &crate::Share) -> String {
     )
 }
 
-fn line(color: plotters::style::RGBColor, points: Vec<(f64, f64)>) -> Series {
+fn line(color: Rgb, points: Vec<(f64, f64)>) -> Series {
     Series {
         color,
         marks: Marks::Line(points),
     }
 }
 
-fn diagram(own: &Reliability) -> Result<String, EvaluateError> {
+fn diagram(own: &Reliability) -> Result<String, PlotError> {
     let points = own.bins.iter().map(|bin| {
         let right = &bin.right;
         (bin.mean_confidence, right.low, right.share, right.high)
@@ -170,7 +173,7 @@ fn diagram(own: &Reliability) -> Result<String, EvaluateError> {
     plot(SIZE, &x, &y, &series)
 }
 
-fn confidences(rows: &[&AppleRow]) -> Result<String, EvaluateError> {
+fn confidences(rows: &[&AppleRow]) -> Result<String, PlotError> {
     const BARS: usize = 25;
     let answers: Vec<(f64, f64)> = rows
         .iter()
@@ -199,7 +202,7 @@ fn confidences(rows: &[&AppleRow]) -> Result<String, EvaluateError> {
     plot(SIZE, &x, &y, &[bar(GREEN, all), bar(OURS, wrong)])
 }
 
-fn risk(own: &Reliability) -> Result<String, EvaluateError> {
+fn risk(own: &Reliability) -> Result<String, PlotError> {
     let curve = &own.risk_coverage;
     let wrong = curve
         .iter()
@@ -214,7 +217,7 @@ fn risk(own: &Reliability) -> Result<String, EvaluateError> {
     plot(SIZE, &x, &y, &series)
 }
 
-fn ratios(rows: &[&AppleRow]) -> Result<String, EvaluateError> {
+fn ratios(rows: &[&AppleRow]) -> Result<String, PlotError> {
     let mut ratios: Vec<f64> = rows
         .iter()
         .filter_map(|row| {

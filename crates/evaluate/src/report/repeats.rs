@@ -1,14 +1,16 @@
-use super::html::{figures, paragraph, table};
-use super::number::{degrees, mm, percent};
-use super::plot::{Axis, GREEN, Marks, OURS, PAPER, Series, plot, range_of};
+use super::colors::{OURS, PAPER};
 use super::spread::{cumulative, histogram};
+use crate::apple_row::AppleRow;
 use crate::paper_figures::repeats as paper;
-use crate::{AngleErrors, AppleRow, EvaluateError, Repeatability, SuiteResult};
+use crate::suite::{AngleErrors, Repeatability, SuiteResult};
 use nalgebra::Vector3;
 use pomona_geometry::angle_between;
+use pomona_report::html::{figures, paragraph, table};
+use pomona_report::number::{degrees, mm, percent};
+use pomona_report::plot::{Axis, GREEN, Marks, PlotError, Series, plot, range_of};
 
 /// Figures 13–15 and the figures of section 3; empty where the suite does not repeat one scene.
-pub(super) fn section(result: &SuiteResult, rows: &[&AppleRow]) -> Result<String, EvaluateError> {
+pub(super) fn section(result: &SuiteResult, rows: &[&AppleRow]) -> Result<String, PlotError> {
     let Some(repeats) = &result.repeatability else {
         return Ok(String::new());
     };
@@ -119,7 +121,11 @@ fn summary(result: &SuiteResult, repeats: &Repeatability) -> String {
         .map_or_else(String::new, |r| format!("bias {}", mm(r.mean)));
     rows.push(row(
         "radius mean mm",
-        mm(paper::RADIUS_MEAN),
+        format!(
+            "{}\nbias {}",
+            mm(paper::RADIUS_MEAN),
+            mm(paper::RADIUS_MEAN - paper::TRUE_RADIUS)
+        ),
         mm(repeats.radius.mean),
         bias,
     ));
@@ -161,7 +167,7 @@ fn scatter(
     rows: &[&AppleRow],
     repeats: &Repeatability,
     [h, v]: [usize; 2],
-) -> Result<String, EvaluateError> {
+) -> Result<String, PlotError> {
     const NAMES: [&str; 3] = ["x (mm)", "y (mm, down)", "z (mm, away)"];
     let flat = |p: [f64; 3]| (p[h] * 1e3, p[v] * 1e3);
     let pairs: Vec<[(f64, f64); 2]> = rows

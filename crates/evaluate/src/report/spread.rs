@@ -1,11 +1,12 @@
-use super::html::figures;
-use super::plot::{Axis, FAINT, GREEN, Marks, OURS, PAPER, Series, from_zero, plot, range_of};
-use crate::{AppleRow, EvaluateError};
+use super::colors::{FAINT, OURS, PAPER};
+use crate::apple_row::AppleRow;
+use pomona_report::html::figures;
+use pomona_report::plot::{Axis, GREEN, Marks, PlotError, Series, from_zero, plot, range_of};
 
 pub(super) const SIZE: (u32, u32) = (560, 320);
 
 /// How the errors of direction and place are spread.
-pub(super) fn section(rows: &[&AppleRow]) -> Result<String, EvaluateError> {
+pub(super) fn section(rows: &[&AppleRow]) -> Result<String, PlotError> {
     let angles: Vec<f64> = rows
         .iter()
         .filter_map(|row| row.angle_error)
@@ -51,7 +52,7 @@ pub(super) fn section(rows: &[&AppleRow]) -> Result<String, EvaluateError> {
 }
 
 /// Shares of angles in bars.
-pub(super) fn histogram(angles: &[f64]) -> Result<String, EvaluateError> {
+pub(super) fn histogram(angles: &[f64]) -> Result<String, PlotError> {
     let top = top_angle(angles);
     // Few and clear bars, whatever the range.
     let width = if top <= 30.0 { 1.0 } else { 5.0 };
@@ -82,7 +83,7 @@ pub(super) fn histogram(angles: &[f64]) -> Result<String, EvaluateError> {
 }
 
 /// Share of angles up to each angle; `paper` are points that the paper states, in degrees and shares.
-pub(super) fn cumulative(angles: &[f64], paper: &[(f64, f64)]) -> Result<String, EvaluateError> {
+pub(super) fn cumulative(angles: &[f64], paper: &[(f64, f64)]) -> Result<String, PlotError> {
     let mut sorted = angles.to_vec();
     sorted.sort_by(f64::total_cmp);
     let top = top_angle(angles).max(paper.iter().map(|p| p.0 + 5.0).fold(0.0, f64::max));
@@ -117,7 +118,7 @@ fn top_angle(angles: &[f64]) -> f64 {
     (10.0 * (largest / 10.0).ceil()).clamp(20.0, 180.0)
 }
 
-fn offsets(rows: &[&AppleRow]) -> Result<String, EvaluateError> {
+fn offsets(rows: &[&AppleRow]) -> Result<String, PlotError> {
     let offsets: Vec<[f64; 3]> = rows
         .iter()
         .filter_map(|row| row.center_offset)
@@ -152,7 +153,7 @@ fn offsets(rows: &[&AppleRow]) -> Result<String, EvaluateError> {
 }
 
 /// Fitted over true radius, mm, with the line of equality; `label` says whose truth it is.
-pub(super) fn radius(label: &str, pairs: &[(f64, f64)]) -> Result<String, EvaluateError> {
+pub(super) fn radius(label: &str, pairs: &[(f64, f64)]) -> Result<String, PlotError> {
     let both = range_of(pairs.iter().flat_map(|&(a, b)| [a, b]));
     let x = Axis::new(label, both.clone());
     let y = Axis::new("fitted radius (mm)", both.clone());

@@ -1,9 +1,12 @@
-//! Records drawn from a known tree with exactly the errors that they state.
+//! Answers drawn from a known tree with exactly the errors that they state.
 
 use crate::orchard_views::pose_towards;
 use nalgebra::{Isometry3, Matrix3, Matrix6, Point3, Translation3, UnitQuaternion, Vector3};
-use pomona::{Record, RobotFromCamera};
-use pomona_transforms::Transform;
+use pomona::{
+    AppleAnswer, FittedApple, FrameAnswer, Method, PickDirection, RobotFromCamera, Status,
+};
+use pomona_cloud::PixelBox;
+use pomona_transforms::{Direction, Position, PositionCovariance, Transform};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -23,10 +26,6 @@ pub(crate) struct View {
     pub(crate) angle: f64,
     pub(crate) sway: Vector3<f64>,
     pub(crate) pose_sd: (f64, f64),
-}
-
-pub(crate) fn array(v: Vector3<f64>) -> [f64; 3] {
-    v.into()
 }
 
 pub(crate) struct Trial {
@@ -68,20 +67,20 @@ impl Trial {
         tree
     }
 
-    /// A record with the stated errors: 1 mm across, 3 mm along the line of sight, 2 degrees.
-    pub(crate) fn record(
+    /// Answers with the stated errors: 1 mm across, 3 mm along the line of sight, 2 degrees.
+    pub(crate) fn answer(
         &mut self,
         id: &str,
         tree: &[Apple],
         view: &View,
-    ) -> (Record, RobotFromCamera) {
+    ) -> (FrameAnswer, RobotFromCamera) {
         let pose = pose_towards(Vector3::new(0.85, 0.0, 0.5), 0.85, view.angle, 0.1);
         let (turn, shift) = view.pose_sd;
         let error = Isometry3::from_parts(
             Translation3::from(self.normals() * shift),
             UnitQuaternion::from_scaled_axis(self.normals() * turn),
         );
-        let mut picks = Vec::new();
+        let mut apples = Vec::new();
         for (i, apple) in tree.iter().enumerate() {
             let truth = (pose.inverse() * Point3::from(apple.center + view.sway)).coords;
             let sight = truth.normalize();
@@ -91,21 +90,31 @@ impl Trial {
             let radius = apple.radius + 5e-4 * self.normal();
             let tilt = UnitQuaternion::from_scaled_axis(self.normals() * 0.035);
             let direction = tilt * (pose.inverse().rotation * apple.direction);
-            picks.push(serde_json::json!({
-                "id": i,
-                "box": {"name": i.to_string(), "x_min": 0, "y_min": 0, "x_max": 9, "y_max": 9, "score": 1.0},
-                "status": "picked",
-                "apple": {"center": array(center), "radius": radius, "inliers": 100, "rms": 0.001,
-                          "center_covariance": <[[f64; 3]; 3]>::from(covariance), "radius_sd": 5e-4},
-                "foot": array(center + direction * 1.1 * radius),
-                "direction": array(direction), "direction_sd": 0.035, "confidence": 0.8,
-                "timing_ms": {"crop": 0.0, "sphere": 0.0, "branch": 0.0, "total": 0.0}
-            }));
+            let (center, direction) = (
+                Position::new(center.into()),
+                Direction::new(direction).unwrap(),
+            );
+            let bounds = PixelBox {
+                name: i.to_string(),
+                x_min: 0.0,
+                y_min: 0.0,
+                x_max: 9.0,
+                y_max: 9.0,
+                score: 1.0,
+            };
+            let foot = center.moved(&direction, 1.1 * radius);
+            let mut answer = AppleAnswer::new(i, bounds, Status::Picked);
+            let mut fitted = FittedApple::new(center, radius, 100, 0.001);
+            fitted.center_covariance = Some(PositionCovariance::new(covariance));
+            fitted.radius_sd_m = Some(5e-4);
+            answer.apple = Some(fitted);
+            let mut pick = PickDirection::new(&center, foot).unwrap();
+            pick.sd_rad = Some(0.035);
+            answer.pick = Some(pick);
+            answer.confidence = Some(0.8);
+            apples.push(answer);
         }
-        let record = serde_json::from_value(serde_json::json!({
-            "schema": "pomona.picks/1", "method": "robust", "seed": 0,
-            "frame": {"id": id, "frame_id": CAMERA}, "picks": picks
-        }));
+        let answer = FrameAnswer::new(Method::Robust, 0, id, CAMERA, apples);
         // What is stated is off by the error: the true pose is Exp(error) of it, in the robot's axes.
         let stated = Transform::from_isometry(&(error.inverse() * pose)).unwrap();
         let mut named = RobotFromCamera::new(stated, "base_link", CAMERA);
@@ -115,7 +124,7 @@ impl Trial {
             covariance[(i + 3, i + 3)] = shift * shift;
         }
         named.covariance = Some(covariance);
-        (record.unwrap(), named)
+        (answer, named)
     }
 }
 

@@ -6,13 +6,13 @@
 )]
 
 use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
-use pomona::{Config, Method, Picker, Record, RobotFromCamera};
+use pomona::{CheckedFrame, Config, FrameAnswer, Method, Picker, RobotFromCamera};
 use pomona_scenes::{Make, Orchard, Shot};
 use pomona_transforms::Transform;
 
 /// The tree from several cameras, and where its apples truly are in the robot's frame.
 pub(crate) struct Views {
-    pub(crate) frames: Vec<(Record, RobotFromCamera)>,
+    pub(crate) frames: Vec<(FrameAnswer, RobotFromCamera)>,
     pub(crate) centers: Vec<Vector3<f64>>,
     /// The true direction of each apple that a frame boxes.
     #[allow(
@@ -82,8 +82,8 @@ pub(crate) fn views(seed: u64) -> Views {
             }
             let transform = Transform::from_isometry(&pose).unwrap();
             let named = RobotFromCamera::new(transform, "base_link", camera.frame_id.clone());
-            let outcome = picker.pick(&frame, 0, Some(&named)).unwrap();
-            (outcome.record, named)
+            let frame = CheckedFrame::new(&frame).unwrap();
+            (picker.pick(&frame, 0, Some(&named)).unwrap(), named)
         })
         .collect();
     let centers = world

@@ -1,6 +1,8 @@
 //! A frame of the lab and what a robot plans for it.
 
-use pomona::{ApproachConfig, Config, Outcome, Picker, Robot, RobotFromCamera, RobotPlan};
+use pomona::{
+    ApproachConfig, CheckedFrame, Config, FrameAnswer, Picker, Robot, RobotFromCamera, RobotPlan,
+};
 use pomona_scenes::{Scene, Suite};
 use pomona_transforms::Transform;
 
@@ -22,11 +24,12 @@ pub(crate) fn config() -> ApproachConfig {
     config
 }
 
-pub(crate) fn planned(scene: &Scene, config: &ApproachConfig) -> (Outcome, RobotPlan) {
+pub(crate) fn planned(scene: &Scene, config: &ApproachConfig) -> (FrameAnswer, RobotPlan) {
     let picker = Picker::new(Config::default()).unwrap();
     let transform = transform();
-    let mut outcome = picker.pick(&scene.frame, 0, Some(&transform)).unwrap();
+    let frame = CheckedFrame::new(&scene.frame).unwrap();
+    let mut answer = picker.pick(&frame, 0, Some(&transform)).unwrap();
     let robot = Robot::new(config.clone()).unwrap();
-    let plan = robot.plan(&scene.frame, &mut outcome, &transform).unwrap();
-    (outcome, plan)
+    let plan = robot.plan(&frame, &mut answer, &transform);
+    (answer, plan)
 }

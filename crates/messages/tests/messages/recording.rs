@@ -1,7 +1,7 @@
 //! The recording, read back by this implementation of MCAP and by another.
 
 use crate::lab::{config, lab, planned, transform};
-use pomona::Robot;
+use pomona::{CheckedFrame, Robot};
 use pomona_messages::recording;
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -10,7 +10,7 @@ use std::process::Command;
 /// The recording of a lab frame, and the number of its depth readings.
 fn bytes() -> (Vec<u8>, usize) {
     let (scene, config) = (lab(), config());
-    let (outcome, plan) = planned(&scene, &config);
+    let (_, plan) = planned(&scene, &config);
     let robot = Robot::new(config).unwrap();
     let readings = scene
         .frame
@@ -19,7 +19,8 @@ fn bytes() -> (Vec<u8>, usize) {
         .iter()
         .filter(|r| **r > 0)
         .count();
-    let bytes = recording::record(&scene.frame, &outcome, &plan, &robot, &transform()).unwrap();
+    let frame = CheckedFrame::new(&scene.frame).unwrap();
+    let bytes = recording::record(&frame, &plan, &robot, &transform()).unwrap();
     (bytes, readings)
 }
 

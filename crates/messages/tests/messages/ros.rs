@@ -169,7 +169,7 @@ fn check(value: &Value, kind: &str, place: &str) {
 fn messages_have_the_fields_of_their_definitions() {
     let config = config();
     let (_, plan) = planned(&lab(), &config);
-    let (id, approach) = ros::ranked(&plan).next().unwrap();
+    let (id, approach) = pomona_messages::ranked(&plan).next().unwrap();
     let value = |m: Result<Value, serde_json::Error>| m.unwrap();
     let grasp = ros::grasp(&plan, id, approach, &config);
     check(&value(serde_json::to_value(&grasp)), "Grasp", "grasp");
@@ -202,7 +202,7 @@ fn a_refused_apple_has_no_grasp() {
 #[test]
 fn files_say_the_same_as_the_messages() {
     let config = config();
-    let (outcome, plan) = planned(&lab(), &config);
+    let (answer, plan) = planned(&lab(), &config);
     let files = ros::files(&plan, &config);
     let names: Vec<_> = files.iter().map(|f| f.name.as_str()).collect();
     let wanted = [
@@ -213,8 +213,9 @@ fn files_say_the_same_as_the_messages() {
         "ros-grasp-0.yaml",
     ];
     assert_eq!(names, wanted);
-    let wrist = &outcome.record.picks[0].plan.gripper.as_ref().unwrap().wrist;
-    for (axis, value) in ["x", "y", "z"].iter().zip(wrist.position) {
+    let apple = answer.apples[0].plan.as_ref().unwrap();
+    let wrist = &apple.approach.as_ref().unwrap().wrist.translation.vector;
+    for (axis, value) in ["x", "y", "z"].iter().zip(wrist.iter()) {
         let numbers: Vec<f64> = files[3]
             .text
             .lines()

@@ -1,8 +1,9 @@
 //! Boxes of one apple become one box.
 
-use super::look::{Looker, Mark};
-use super::samples::Samples;
-use super::{Candidate, SEED};
+use super::candidate::{Candidate, SEED};
+use super::depth_check::DepthChecker;
+use super::grid_readings::GridReadings;
+use super::mark::Mark;
 use crate::seed::apple_rng;
 use pomona_cloud::PixelBox;
 use pomona_geometry::Sphere;
@@ -20,12 +21,12 @@ const HULL: f64 = 1.35;
 /// to itself and is marked [`Mark::OfAnother`].
 pub(super) fn join(
     candidates: Vec<Candidate>,
-    looker: &Looker<'_>,
+    checker: &DepthChecker<'_>,
     frame_id: &str,
 ) -> Vec<Candidate> {
     let mut joined: Vec<Candidate> = Vec::with_capacity(candidates.len());
-    let mut samples = Samples::default();
-    let limit = looker.config.merge_distance;
+    let mut readings = GridReadings::default();
+    let limit = checker.config.merge_distance;
     for (i, mut candidate) in candidates.into_iter().enumerate() {
         let same = joined
             .iter()
@@ -37,16 +38,19 @@ pub(super) fn join(
         let better = &mut joined[at];
         let hull = hull(&better.bounds, &candidate.bounds);
         let mut rng = apple_rng(SEED, frame_id, i);
-        let look = looker.look(&hull, &mut rng, &mut samples);
-        let fits = look
+        let check = checker.check(&hull, &mut rng, &mut readings);
+        let fits = check
             .sphere
-            .is_some_and(|sphere| look.mark == Mark::Plausible && frames(&hull, &sphere, looker));
+            .is_some_and(|sphere| check.mark == Mark::Plausible && frames(&hull, &sphere, checker));
         if fits {
-            better.bounds = hull;
-            better.look = look;
-            better.parts += 1;
+            let parts = better.parts + 1;
+            let found_by = better.found_by;
+            *better = Candidate {
+                parts,
+                ..Candidate::new(hull, found_by, check, checker, &readings)
+            };
         } else {
-            candidate.look.mark = Mark::OfAnother;
+            candidate.check.mark = Mark::OfAnother;
             joined.push(candidate);
         }
     }
@@ -55,7 +59,7 @@ pub(super) fn join(
 
 /// Whether two plausible boxes show one sphere.
 fn coincide(a: &Candidate, b: &Candidate, limit: f64) -> bool {
-    let plausible = |c: &Candidate| c.look.sphere.filter(|_| c.look.mark == Mark::Plausible);
+    let plausible = |c: &Candidate| c.check.sphere.filter(|_| c.check.mark == Mark::Plausible);
     let (Some(a), Some(b)) = (plausible(a), plausible(b)) else {
         return false;
     };
@@ -75,7 +79,7 @@ fn hull(a: &PixelBox, b: &PixelBox) -> PixelBox {
 }
 
 /// Whether the sphere's outline fills the box by and large.
-fn frames(bounds: &PixelBox, sphere: &Sphere, looker: &Looker<'_>) -> bool {
-    let outline = 2.0 * sphere.radius / looker.optics.pixel_m(sphere.center.z);
+fn frames(bounds: &PixelBox, sphere: &Sphere, checker: &DepthChecker<'_>) -> bool {
+    let outline = 2.0 * sphere.radius / checker.projection.pixel_m(sphere.center.z);
     bounds.width().max(bounds.height()) <= HULL * outline
 }

@@ -1,9 +1,11 @@
 //! Apples that the colour misses: spheres among the readings outside of the boxes.
 
 use super::appearance::{Palette, Shade, same_size};
-use super::look::{Looker, Mark};
-use super::samples::Samples;
-use super::{Candidate, FoundBy, SEED};
+use super::candidate::{Candidate, SEED};
+use super::depth_check::DepthChecker;
+use super::grid_readings::GridReadings;
+use super::mark::Mark;
+use super::origin::FoundBy;
 use crate::seed::apple_rng;
 use pomona_cloud::{Frame, PixelBox};
 use pomona_geometry::Sphere;
@@ -34,38 +36,43 @@ const FIRST_DRAW: usize = 1 << 32;
 /// judged again. What stays must be round in every direction, fill its outline, and have the
 /// colour of the frame's own apples. Connected pieces of the depth image would be fewer places to try, but
 /// fruit hangs among leaves that touch it.
-pub(super) fn search(frame: &Frame, looker: &Looker<'_>, known: &[Candidate]) -> Vec<Candidate> {
-    let shade = shade(frame, looker, known);
+pub(super) fn search(
+    frame: &Frame,
+    checker: &DepthChecker<'_>,
+    known: &[Candidate],
+) -> Vec<Candidate> {
+    let shade = shade(frame, known);
     let taken: Vec<Sphere> = known
         .iter()
-        .filter(|c| !c.look.mark.refuses())
-        .filter_map(|c| c.look.sphere)
+        .filter(|c| !c.check.mark.refuses())
+        .filter_map(|c| c.check.sphere)
         .collect();
-    let mut found: Vec<Candidate> = places(looker)
+    let mut found: Vec<Candidate> = places(checker)
         .into_par_iter()
         .enumerate()
-        .map_init(Samples::default, |samples, (i, place)| {
+        .map_init(GridReadings::default, |readings, (i, place)| {
             let mut rng = apple_rng(SEED, &frame.id, FIRST_DRAW + i);
-            let mut look = looker.look(&place, &mut rng, samples);
+            let mut check = checker.check(&place, &mut rng, readings);
             let mut bounds = place;
             for _ in 0..2 {
-                bounds = outline(&look.sphere?, looker)?;
-                look = looker.look(&bounds, &mut rng, samples);
+                bounds = outline(&check.sphere?, checker)?;
+                check = checker.check(&bounds, &mut rng, readings);
             }
-            let sphere = look.sphere.filter(|_| look.mark == Mark::Plausible)?;
+            let sphere = check.sphere.filter(|_| check.mark == Mark::Plausible)?;
             let free = taken.iter().all(|other| {
                 (other.center - sphere.center).norm() > sphere.radius.max(other.radius)
             });
-            let round = look.roundness.is_some_and(|r| r.least >= ROUND);
-            let coverage = look.tally.coverage();
-            if !(free && round && coverage >= looker.config.search_coverage) {
+            let round = check.roundness.is_some_and(|r| r.least >= ROUND);
+            let coverage = check.counts.coverage();
+            if !(free && round && coverage >= checker.config.search_coverage) {
                 return None;
             }
-            let colored = shade.is_none_or(|shade| {
-                shade.share(&frame.color, surface(samples, &sphere, looker)) >= COLORED
-            });
             bounds.score = coverage.min(1.0);
-            colored.then(|| Candidate::new(bounds, FoundBy::Depth, look))
+            let candidate = Candidate::new(bounds, FoundBy::Depth, check, checker, readings);
+            let colored = |shade: Shade| {
+                shade.share(&frame.color, candidate.surface.iter().copied()) >= COLORED
+            };
+            shade.is_none_or(colored).then_some(candidate)
         })
         .flatten()
         .collect();
@@ -73,12 +80,12 @@ pub(super) fn search(frame: &Frame, looker: &Looker<'_>, known: &[Candidate]) ->
     found.sort_by(|a, b| b.bounds.score.total_cmp(&a.bounds.score));
     let mut apart: Vec<Candidate> = Vec::new();
     for candidate in found {
-        let Some(sphere) = candidate.look.sphere else {
+        let Some(sphere) = candidate.check.sphere else {
             continue;
         };
         let distinct = apart
             .iter()
-            .filter_map(|c| c.look.sphere)
+            .filter_map(|c| c.check.sphere)
             .all(|other| (other.center - sphere.center).norm() > sphere.radius.max(other.radius));
         if distinct {
             apart.push(candidate);
@@ -91,49 +98,31 @@ pub(super) fn search(frame: &Frame, looker: &Looker<'_>, known: &[Candidate]) ->
 }
 
 /// The colour of the plausible ones of `known`; `None` where they are too few to tell.
-fn shade(frame: &Frame, looker: &Looker<'_>, known: &[Candidate]) -> Option<Shade> {
+fn shade(frame: &Frame, known: &[Candidate]) -> Option<Shade> {
     if !same_size(&frame.color, &frame.depth) {
         return None;
     }
     let mut palette = Palette::default();
-    let mut samples = Samples::default();
-    for (i, candidate) in known.iter().enumerate() {
-        let Some(sphere) = candidate.look.sphere else {
-            continue;
-        };
-        if candidate.look.mark == Mark::Plausible {
-            let mut rng = apple_rng(SEED, &frame.id, i);
-            looker.look(&candidate.bounds, &mut rng, &mut samples);
-            palette.learn(&frame.color, surface(&samples, &sphere, looker));
+    for candidate in known {
+        if candidate.check.mark == Mark::Plausible && candidate.check.sphere.is_some() {
+            palette.learn(&frame.color, candidate.surface.iter().copied());
         }
     }
     palette.learnt()
 }
 
-/// Pixels of the samples that show the sphere.
-fn surface<'s>(
-    samples: &'s Samples,
-    sphere: &'s Sphere,
-    looker: &Looker<'_>,
-) -> impl Iterator<Item = u32> + 's {
-    let threshold = looker.threshold(sphere.center.z);
-    (0..samples.len())
-        .filter(move |&i| sphere.signed_distance(&samples.point(i)).abs() <= threshold)
-        .map(|i| samples.pixel[i])
-}
-
 /// Boxes about the places where the depth image bulges, by the middle of an apple's size.
-fn places(looker: &Looker<'_>) -> Vec<PixelBox> {
-    let (depth, config) = (looker.depth, looker.config);
-    let radius = 0.5 * (config.radius_min_m + config.radius_max_m);
-    let scale = looker.optics.camera.depth_scale;
+fn places(checker: &DepthChecker<'_>) -> Vec<PixelBox> {
+    let (depth, config) = (checker.depth, checker.config);
+    let radius = 0.5 * (checker.radii.least + checker.radii.most);
+    let scale = checker.projection.camera.depth_scale;
     let reading = |u: f64, v: f64| -> Option<f64> {
         let inside = u >= 0.0 && v >= 0.0;
         let reading = inside.then(|| depth.get(u.round() as usize, v.round() as usize))??;
         Some(f64::from(reading) * scale)
     };
     // The grid is as fine as the farthest apples need; nearer ones use every so manieth place of it.
-    let fine = (STEP * radius / looker.optics.pixel_m(config.range_max_m))
+    let fine = (STEP * radius / checker.projection.pixel_m(config.range_max_m))
         .floor()
         .max(2.0);
     let mut places = Vec::new();
@@ -143,7 +132,7 @@ fn places(looker: &Looker<'_>) -> Vec<PixelBox> {
             let Some(z) = reading(u, v).filter(|&z| z <= config.range_max_m) else {
                 continue;
             };
-            let apple = radius / looker.optics.pixel_m(z);
+            let apple = radius / checker.projection.pixel_m(z);
             let every = ((STEP * apple / fine) as usize).max(1);
             if row % every != 0 || column % every != 0 {
                 continue;
@@ -171,9 +160,9 @@ fn places(looker: &Looker<'_>) -> Vec<PixelBox> {
 }
 
 /// The box about the outline of a sphere; `None` where it lies outside of the image or about the camera.
-fn outline(sphere: &Sphere, looker: &Looker<'_>) -> Option<PixelBox> {
-    let (u, v) = looker.optics.project(&sphere.center)?;
-    let half = sphere.radius / looker.optics.pixel_m(sphere.center.z);
+fn outline(sphere: &Sphere, checker: &DepthChecker<'_>) -> Option<PixelBox> {
+    let (u, v) = checker.projection.project(&sphere.center)?;
+    let half = sphere.radius / checker.projection.pixel_m(sphere.center.z);
     let bounds = PixelBox {
         name: String::new(),
         x_min: u - half,
@@ -182,6 +171,6 @@ fn outline(sphere: &Sphere, looker: &Looker<'_>) -> Option<PixelBox> {
         y_max: v + half,
         score: 0.0,
     };
-    let (width, height) = (looker.depth.width, looker.depth.height);
+    let (width, height) = (checker.depth.width, checker.depth.height);
     bounds.validate(width, height).is_ok().then_some(bounds)
 }

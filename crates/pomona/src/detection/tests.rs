@@ -1,7 +1,9 @@
 use super::*;
-use crate::{Picker, Status};
+use crate::outcome::{FrameAnswer, Status};
+use crate::picker::Picker;
+use crate::record::PicksRecord;
 use nalgebra::{Point3, Vector3};
-use pomona_cloud::{Camera, DepthImage};
+use pomona_cloud::{Camera, DepthImage, Frame};
 use pomona_detect::{DetectError, DetectorReport, RuntimeReport};
 
 /// Answers with what it is told.
@@ -16,12 +18,7 @@ impl Detector for Fixed {
         DetectorReport {
             name: "fixed".to_owned(),
             family: Some("truth".to_owned()),
-            runtime: Some(RuntimeReport {
-                name: "none".to_owned(),
-                version: "1".to_owned(),
-                library: None,
-                fallback_reason: None,
-            }),
+            runtime: Some(RuntimeReport::new("none", "1")),
             notes: vec!["none".to_owned()],
         }
     }
@@ -97,14 +94,15 @@ fn about(x: f64, y: f64, z: f64, radius: f64) -> Detection {
     }
 }
 
-fn find(frame: &Frame, detections: Vec<Detection>, config: &Config) -> Found {
-    find_apples(frame, &Fixed(detections), config).unwrap()
+fn find(frame: &Frame, detections: Vec<Detection>, config: &Config) -> DetectedApples {
+    let frame = CheckedFrame::new(frame).unwrap();
+    find_apples(&frame, &Fixed(detections), config).unwrap()
 }
 
 #[track_caller]
 fn mark(surfaces: &[Surface<'_>], detection: Detection) -> Mark {
     let found = find(&frame(surfaces), vec![detection], &Config::default());
-    found.boxes[0].found.mark
+    found.boxes[0].origin.mark
 }
 
 #[test]
@@ -115,13 +113,14 @@ fn an_apple_is_plausible_and_its_sphere_is_right() {
         vec![about(0.02, -0.01, 0.8, 0.038)],
         &Config::default(),
     );
-    assert_eq!(found.boxes[0].found.mark, Mark::Plausible);
+    assert_eq!(found.boxes[0].origin.mark, Mark::Plausible);
     assert_eq!(found.plausible().count(), 1);
     let sphere = found.boxes[0].sphere.unwrap();
     assert!((sphere.center - Point3::new(0.02, -0.01, 0.8)).norm() < 0.002);
     assert!((sphere.radius - 0.038).abs() < 0.002, "{sphere:?}");
-    assert_eq!(found.record.runtime.as_deref(), Some("none"));
-    assert_eq!((found.record.detections, found.record.marked), (1, 0));
+    let runtime = found.summary.detector.runtime.as_ref().unwrap();
+    assert_eq!(runtime.name, "none");
+    assert_eq!((found.summary.detections, found.summary.marked), (1, 0));
 }
 
 #[test]
@@ -181,12 +180,12 @@ fn parts_of_one_apple_become_its_box_and_neighbours_stay_apart() {
         (joint.bounds.name.as_str(), joint.bounds.score),
         ("0+2", 0.8)
     );
-    assert_eq!(joint.found.merged, Some(2));
+    assert_eq!(joint.origin.merged, 2);
     assert_eq!(
         (joint.bounds.x_min, joint.bounds.x_max),
         (first.x_min, first.x_max)
     );
-    assert_eq!(found.record.merged, 1);
+    assert_eq!(found.summary.merged, 1);
 
     // A box about both is no better box of either.
     let both = Detection {
@@ -199,7 +198,7 @@ fn parts_of_one_apple_become_its_box_and_neighbours_stay_apart() {
     };
     let found = find(&frame, vec![first, second, both], &Config::default());
     assert_eq!(found.boxes.len(), 3);
-    assert!(found.boxes[2].found.mark.refuses(), "{found:?}");
+    assert!(found.boxes[2].origin.mark.refuses(), "{found:?}");
 
     let mut config = Config::default();
     config.detection.merge_distance = 0.0;
@@ -220,18 +219,18 @@ fn a_search_in_depth_finds_what_the_colour_misses() {
     config.detection.depth_search = true;
     let found = find(&frame, seen, &config);
     assert_eq!(
-        (found.boxes.len(), found.record.by_depth),
+        (found.boxes.len(), found.summary.by_depth),
         (2, 1),
         "{found:?}"
     );
     let more = &found.boxes[1];
     assert_eq!(
-        (more.found.found_by, more.bounds.name.as_str()),
+        (more.origin.found_by, more.bounds.name.as_str()),
         (FoundBy::Depth, "d0")
     );
     let center = more.sphere.unwrap().center;
     assert!((center - Point3::new(b.0, b.1, b.2)).norm() < 0.003);
-    assert!(found.record.timing_ms.depth_search.is_some());
+    assert!(found.summary.times.depth_search.is_some());
 }
 
 #[test]
@@ -239,27 +238,26 @@ fn refused_boxes_stay_in_the_record_and_are_not_picked() {
     let frame = frame(&[&|_| Some(0.8)]);
     let mut config = Config::default();
     let found = find(&frame, vec![about(0.0, 0.0, 0.8, 0.038)], &config);
-    let pick = |config: &Config| {
+    let pick = |config: &Config| -> FrameAnswer {
         let picker = Picker::new(config.clone()).unwrap();
-        picker.pick_found(&frame, &found, 0, None).unwrap().record
+        let frame = CheckedFrame::new(&frame).unwrap();
+        picker.pick_detected(&frame, &found, 0, None).unwrap()
     };
-    let record = pick(&config);
-    assert_eq!(record.picks[0].status, Status::Implausible);
-    assert_eq!(record.picks[0].pixel_box.found.unwrap().mark, Mark::Flat);
-    assert!(record.picks[0].apple.is_none());
+    let answer = pick(&config);
+    assert_eq!(answer.apples[0].status, Status::Implausible);
+    assert_eq!(answer.apples[0].origin.unwrap().mark, Mark::Flat);
+    assert!(answer.apples[0].apple.is_none());
+    let record = PicksRecord::from(&answer);
     let detection = record.detection.clone().unwrap();
     assert_eq!((detection.name.as_str(), detection.marked), ("fixed", 1));
     let text = serde_json::to_string(&record).unwrap();
-    assert_eq!(
-        serde_json::from_str::<crate::Record>(&text).unwrap(),
-        record
-    );
+    assert_eq!(serde_json::from_str::<PicksRecord>(&text).unwrap(), record);
 
     config.detection.pick_marked = true;
-    assert_ne!(pick(&config).picks[0].status, Status::Implausible);
+    assert_ne!(pick(&config).apples[0].status, Status::Implausible);
     config.detection.depth_check = false;
     let unchecked = find(&frame, vec![about(0.0, 0.0, 0.8, 0.038)], &config);
-    assert_eq!(unchecked.boxes[0].found.mark, Mark::Unchecked);
+    assert_eq!(unchecked.boxes[0].origin.mark, Mark::Unchecked);
 }
 
 #[test]
@@ -292,7 +290,8 @@ fn whatever_a_detector_says_is_no_panic() {
     config.detection.depth_search = true;
     let found = find(&frame, detections, &config);
     let picker = Picker::new(config).unwrap();
-    picker.pick_found(&frame, &found, 0, None).unwrap();
+    let frame = CheckedFrame::new(&frame).unwrap();
+    picker.pick_detected(&frame, &found, 0, None).unwrap();
 }
 
 #[test]
@@ -309,7 +308,9 @@ fn a_detector_that_fails_is_an_error_that_names_the_frame() {
             DetectorReport::default()
         }
     }
-    let error = find_apples(&frame(&[]), &Broken, &Config::default()).unwrap_err();
+    let frame = frame(&[]);
+    let frame = CheckedFrame::new(&frame).unwrap();
+    let error = find_apples(&frame, &Broken, &Config::default()).unwrap_err();
     let message = error.to_string();
     assert!(
         message.contains("'test'") && message.contains("no signal"),

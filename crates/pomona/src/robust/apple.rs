@@ -3,12 +3,12 @@
 use super::blocks::{Area, Blocks};
 use super::body::{Body, BodyFit, BodyPrior, Course, Sightings, fit_body};
 use super::contour::{agreement, grazing_rays};
-use super::patch::{Optics, Patch};
-use super::sensor::Noise;
 use super::sphere::{BoxRays, candidates, support};
-use crate::{BoxRecord, RobustConfig, Status};
+use crate::config::{FruitConfig, RobustConfig};
+use crate::optics::{DepthNoise, DepthPatch, Projection, depth_jump_m};
+use crate::outcome::Status;
 use nalgebra::{Point3, Unit, Vector3};
-use pomona_cloud::PixelWindow;
+use pomona_cloud::{PixelBox, PixelWindow};
 use pomona_geometry::Sphere;
 use rand_chacha::ChaCha8Rng;
 
@@ -24,12 +24,12 @@ const ROUND_SUPPORT_M: f64 = 0.0008;
 /// Fewest blocks of readings that make an apple.
 const LEAST_BLOCKS: usize = 8;
 
-/// Least jump of depth between neighbours that parts two things, metres.
-const LEAST_JUMP_M: f64 = 0.008;
+/// Standard deviations of a reading between neighbours on different things.
+const JUMP_SIGMAS: f64 = 6.0;
 
 /// A fitted apple, and how well it was seen.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Found {
+pub(crate) struct SeenApple {
     pub(crate) fit: BodyFit,
     /// Share of its outline's area on which its surface shows.
     pub(crate) visible_share: f64,
@@ -40,7 +40,7 @@ pub(crate) struct Found {
 /// Buffers that serve one apple after another.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct AppleBuffers {
-    pub(crate) patch: Patch,
+    pub(crate) patch: DepthPatch,
     blocks: Blocks,
     points: Vec<(Point3<f64>, f64)>,
     rays: Vec<Unit<Vector3<f64>>>,
@@ -53,9 +53,10 @@ pub(crate) const MARGIN_PX: usize = 8;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct AppleSearch<'a> {
     pub(crate) config: &'a RobustConfig,
-    pub(crate) optics: &'a Optics<'a>,
-    pub(crate) noise: Noise,
-    pub(crate) bounds: &'a BoxRecord,
+    pub(crate) fruit: &'a FruitConfig,
+    pub(crate) projection: &'a Projection<'a>,
+    pub(crate) noise: DepthNoise,
+    pub(crate) bounds: &'a PixelBox,
     /// The pixels of the box.
     pub(crate) window: PixelWindow,
 }
@@ -66,7 +67,7 @@ impl AppleSearch<'_> {
         &self,
         rng: &mut ChaCha8Rng,
         buffers: &mut AppleBuffers,
-    ) -> Result<Found, Status> {
+    ) -> Result<SeenApple, Status> {
         let (config, noise) = (self.config, self.noise);
         let window = self.window;
         let side = (window.width().max(window.height()) / config.blocks).max(1);
@@ -77,7 +78,7 @@ impl AppleSearch<'_> {
         if readings < config.min_readings || buffers.blocks.len() < LEAST_BLOCKS {
             return Err(Status::TooFewPoints);
         }
-        let bounds = BoxRays::new(self.bounds, self.optics).ok_or(Status::NoSphere)?;
+        let bounds = BoxRays::new(self.bounds, self.projection).ok_or(Status::NoSphere)?;
         let front = buffers
             .blocks
             .z
@@ -85,17 +86,24 @@ impl AppleSearch<'_> {
             .fold(f32::INFINITY, |a, &b| a.min(b));
         let sigma = noise.sigma(f64::from(front)) * self.shared(1.0 / side as f64);
         let threshold = 2.5 * sigma.hypot(ROUND_SUPPORT_M);
-        let spheres = candidates(&buffers.blocks, &bounds, config, threshold, rng);
+        let spheres = candidates(
+            &buffers.blocks,
+            &bounds,
+            config,
+            self.fruit.hypotheses(),
+            threshold,
+            rng,
+        );
         let (agreement, sphere) = self
             .best_sphere(&spheres, &bounds, threshold, buffers)
             .ok_or(Status::NoSphere)?;
         let fit = self.flattened(sphere, buffers).ok_or(Status::NoSphere)?;
         let radius = fit.body.radius;
-        if radius < 0.9 * config.radius_min_m || radius > 1.1 * config.radius_max_m {
+        if !self.fruit.fitted().contains(radius) {
             return Err(Status::ImplausibleRadius);
         }
         let outline = (radius / self.pixel(&fit.body)).powi(2) * std::f64::consts::PI;
-        Ok(Found {
+        Ok(SeenApple {
             fit,
             visible_share: (fit.weight * (side * side) as f64 / outline).min(1.0),
             agreement,
@@ -113,7 +121,7 @@ impl AppleSearch<'_> {
             y1: y0 + window.height(),
         }
         .shrunk(self.config.rim_share);
-        let jump = |z: f32| (6.0 * self.noise.sigma(f64::from(z))).max(LEAST_JUMP_M) as f32;
+        let jump = |z: f32| depth_jump_m(self.noise.sigma(f64::from(z)), JUMP_SIGMAS) as f32;
         let readings = blocks.fill(patch, area, side, jump);
         let points =
             (0..blocks.len()).map(|i| (blocks.get(i), self.shared(f64::from(blocks.share[i]))));
@@ -129,12 +137,13 @@ impl AppleSearch<'_> {
 
     /// Metres of a pixel at the body's depth.
     fn pixel(&self, body: &Body) -> f64 {
-        self.optics.pixel_m(body.center.z)
+        self.projection.pixel_m(body.center.z)
     }
 
     /// What is believed of the apple: of its radius by the smaller side of the box, where boxes are trusted so far.
     fn prior(&self, blocks: &Blocks) -> BodyPrior {
         let config = self.config;
+        let mean = config.radius_mean_m.unwrap_or(self.fruit.prior_mean());
         let radius = if config.box_radius_sd_m > 0.0 {
             let b = self.bounds;
             let side = (b.x_max - b.x_min).min(b.y_max - b.y_min);
@@ -142,12 +151,14 @@ impl AppleSearch<'_> {
             let mut depths = blocks.z.clone();
             let third = depths.len() / 3;
             let (_, depth, _) = depths.select_nth_unstable_by(third, f32::total_cmp);
-            let depth = f64::from(*depth) + 0.25 * config.radius_mean_m;
-            let radius = 0.5 * side * self.optics.pixel_m(depth);
-            let radius = radius.clamp(config.radius_min_m, config.radius_max_m);
+            let depth = f64::from(*depth) + 0.25 * mean;
+            let radius = 0.5 * side * self.projection.pixel_m(depth);
+            let tried = self.fruit.hypotheses();
+            let radius = radius.clamp(tried.least, tried.most);
             (radius, config.box_radius_sd_m)
         } else {
-            (config.radius_mean_m, config.radius_sd_m)
+            let sd = config.radius_sd_m.unwrap_or(self.fruit.prior_sd());
+            (mean, sd)
         };
         BodyPrior {
             radius,
@@ -167,7 +178,13 @@ impl AppleSearch<'_> {
         buffers: &mut AppleBuffers,
     ) -> Option<BodyFit> {
         let sigma = self.noise.sigma(body.center.z);
-        grazing_rays(&buffers.patch, self.optics, &body, sigma, &mut buffers.rays);
+        grazing_rays(
+            &buffers.patch,
+            self.projection,
+            &body,
+            sigma,
+            &mut buffers.rays,
+        );
         let sightings = Sightings {
             points: &buffers.points,
             rays: &buffers.rays,
@@ -186,6 +203,7 @@ impl AppleSearch<'_> {
         buffers: &mut AppleBuffers,
     ) -> Option<(f64, Body)> {
         let config = self.config;
+        let tried = self.fruit.hypotheses();
         let prior = BodyPrior {
             shape_sd: ROUND_SD_M,
             ..self.prior(&buffers.blocks)
@@ -204,7 +222,7 @@ impl AppleSearch<'_> {
             let Some(body) = refined.map(|fit| fit.body) else {
                 continue;
             };
-            if !(config.radius_min_m..=config.radius_max_m).contains(&body.radius) {
+            if !tried.contains(body.radius) {
                 continue;
             }
             let outline = agreement(&buffers.rays, &body, 2.5 * self.pixel(&body));

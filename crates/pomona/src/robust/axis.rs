@@ -1,5 +1,5 @@
 use super::body::biweight;
-use nalgebra::{Matrix3, Point3, Vector3};
+use nalgebra::{Matrix3, Point3, Unit, Vector3};
 use pomona_geometry::Line;
 
 /// A curved axis: a line, and parabolas across it sideways in the image and in depth.
@@ -57,12 +57,13 @@ impl Axis {
             + self.deep * self.depthways.dot(&p)
     }
 
-    pub(crate) fn tangent(&self, s: f64) -> Vector3<f64> {
+    pub(crate) fn tangent(&self, s: f64) -> Unit<Vector3<f64>> {
         let slope = Vector3::new(0.0, 1.0, 2.0 * s);
-        (self.along
-            + self.side * self.sideways.dot(&slope)
-            + self.deep * self.depthways.dot(&slope))
-        .normalize()
+        Unit::new_normalize(
+            self.along
+                + self.side * self.sideways.dot(&slope)
+                + self.deep * self.depthways.dot(&slope),
+        )
     }
 
     /// Where the axis is nearest to `point`, within `reach` of its base.

@@ -1,4 +1,4 @@
-use super::patch::Patch;
+use crate::optics::DepthPatch;
 use nalgebra::Point3;
 
 /// Points that are each the mean of a square block of readings.
@@ -9,7 +9,7 @@ pub(crate) struct Blocks {
     pub(crate) x: Vec<f32>,
     pub(crate) y: Vec<f32>,
     pub(crate) z: Vec<f32>,
-    /// Noise of each, as a share of that of one reading.
+    /// DepthNoise of each, as a share of that of one reading.
     pub(crate) share: Vec<f32>,
 }
 
@@ -55,7 +55,7 @@ impl Blocks {
     /// cameras mix depths. Blocks with less than two fifths of such readings are left out.
     pub(crate) fn fill(
         &mut self,
-        patch: &Patch,
+        patch: &DepthPatch,
         area: Area,
         side: usize,
         jump: impl Fn(f32) -> f32,

@@ -1,7 +1,7 @@
 //! The apple's body fitted to its surface and outline: a sphere flattened along its stem.
 
-use super::contour::nearest_on_ray;
-use super::sensor::Noise;
+use super::ray::nearest_on_ray;
+use crate::optics::DepthNoise;
 use nalgebra::{Matrix3, Point3, SMatrix, SVector, Unit, Vector3};
 use pomona_geometry::Sphere;
 
@@ -64,7 +64,7 @@ pub(crate) struct Sightings<'a> {
     pub(crate) rays: &'a [Unit<Vector3<f64>>],
     /// Standard deviation of the distance of a grazing ray from the surface, metres.
     pub(crate) ray_sd: f64,
-    pub(crate) noise: Noise,
+    pub(crate) noise: DepthNoise,
 }
 
 /// How a fit goes about it.

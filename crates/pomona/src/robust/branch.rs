@@ -2,12 +2,12 @@
 
 use super::axis::{Axis, Parabola, Sample, powers};
 use super::lines::{Reach, guesses};
-use super::patch::Optics;
 use super::shell::Shell;
 use super::strips::{StripRules, strips};
 use super::walk::{Pace, Slice, walk};
-use crate::RobustConfig;
-use nalgebra::{Point3, Vector3};
+use crate::config::RobustConfig;
+use crate::optics::{Projection, depth_jump_m};
+use nalgebra::{Point3, Unit, Vector3};
 use pomona_geometry::Sphere;
 
 /// What a walk along an axis found, as lengths in metres.
@@ -41,7 +41,7 @@ pub(crate) struct Candidate {
     pub(crate) axis: Axis,
     /// Point of the axis nearest to the apple's centre.
     pub(crate) foot: Point3<f64>,
-    pub(crate) tangent: Vector3<f64>,
+    pub(crate) tangent: Unit<Vector3<f64>>,
     /// Of the foot from the centre.
     pub(crate) distance: f64,
     pub(crate) tally: Tally,
@@ -57,7 +57,7 @@ pub(crate) struct Candidate {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Search<'a> {
     pub(crate) shell: &'a Shell,
-    pub(crate) optics: &'a Optics<'a>,
+    pub(crate) projection: &'a Projection<'a>,
     pub(crate) apple: Sphere,
     /// Standard deviation of a reading at the apple's depth.
     pub(crate) sigma: f64,
@@ -114,11 +114,11 @@ impl Search<'_> {
             width_max: 2.3 * config.branch_radius_max_m,
             piece: 0.012,
             bridge: 3,
-            jump: (5.0 * self.sigma).max(0.008) as f32,
+            jump: depth_jump_m(self.sigma, JUMP_SIGMAS) as f32,
             step: 1,
         };
         let off = |p: &Point3<f64>| (p - self.apple.center).norm();
-        let mut pieces = strips(self.shell, &rules, self.optics.pixel_m(1.0));
+        let mut pieces = strips(self.shell, &rules, self.projection.pixel_m(1.0));
         let widths = config.branch_radius_min_m..=config.branch_radius_max_m;
         pieces.retain(|s| widths.contains(&s.half_width) && off(&s.middle) < 3.3 * r);
         pieces.sort_by(|a, b| off(&a.middle).total_cmp(&off(&b.middle)));
@@ -156,7 +156,7 @@ impl Search<'_> {
         let pace = self.pace(&candidate.axis, &ROUNDS[ROUNDS.len() - 1]);
         walk(
             self.shell,
-            self.optics,
+            self.projection,
             &candidate.axis,
             &pace,
             slices,
@@ -184,8 +184,8 @@ impl Search<'_> {
     ) -> Option<Candidate> {
         let r = self.apple.radius;
         let pace = self.pace(&axis, round);
-        walk(self.shell, self.optics, &axis, &pace, slices, None);
-        let pixel = self.optics.pixel_m(axis.base.z);
+        walk(self.shell, self.projection, &axis, &pace, slices, None);
+        let pixel = self.projection.pixel_m(axis.base.z);
         let moved = self.fit(&mut axis, slices, pixel)?;
         let radii = self.config.branch_radius_min_m..=self.config.branch_radius_max_m;
         if !radii.contains(&axis.radius) {
@@ -325,6 +325,9 @@ impl Search<'_> {
         tally
     }
 }
+
+/// Standard deviations of a reading between neighbours on different things.
+const JUMP_SIGMAS: f64 = 5.0;
 
 /// Radii of the apple within which it counts fully that nothing is there: farther off a branch may end.
 const EMPTY_NEAR: f64 = 2.2;

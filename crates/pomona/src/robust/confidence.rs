@@ -1,8 +1,8 @@
 //! How sure an answer is, and why there is none.
 
-use super::apple::Found;
+use super::apple::SeenApple;
 use super::branch::Candidate;
-use crate::Status;
+use crate::outcome::Status;
 
 /// Coefficients of the logistic model of 'at most 20 degrees off', in the order of the features.
 ///
@@ -13,7 +13,7 @@ const MODEL: [f64; 9] = [
 ];
 
 /// Probability that the best candidate's direction is at most 20 degrees off.
-pub(crate) fn confidence(found: &Found, ranked: &[Candidate]) -> f64 {
+pub(crate) fn confidence(found: &SeenApple, ranked: &[Candidate]) -> f64 {
     let Some(best) = ranked.first() else {
         return 0.0;
     };
@@ -36,7 +36,7 @@ pub(crate) fn confidence(found: &Found, ranked: &[Candidate]) -> f64 {
 }
 
 /// By how much the best candidate's score is above that of the next one whose direction differs by over 12 degrees.
-fn margin(found: &Found, ranked: &[Candidate]) -> f64 {
+fn margin(found: &SeenApple, ranked: &[Candidate]) -> f64 {
     const ALIKE_RAD: f64 = 0.21;
     let center = found.fit.body.center;
     let Some(best) = ranked.first() else {
@@ -50,7 +50,7 @@ fn margin(found: &Found, ranked: &[Candidate]) -> f64 {
 }
 
 /// Why there is no candidate at all.
-pub(crate) fn without_candidate(found: &Found) -> Status {
+pub(crate) fn without_candidate(found: &SeenApple) -> Status {
     const LEAST_VISIBLE: f64 = 0.1;
     if found.visible_share < LEAST_VISIBLE {
         Status::Occluded
@@ -60,7 +60,7 @@ pub(crate) fn without_candidate(found: &Found) -> Status {
 }
 
 /// Why the best candidate is not sure enough.
-pub(crate) fn refusal(found: &Found, ranked: &[Candidate]) -> Status {
+pub(crate) fn refusal(found: &SeenApple, ranked: &[Candidate]) -> Status {
     let Some(best) = ranked.first() else {
         return without_candidate(found);
     };

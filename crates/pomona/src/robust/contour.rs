@@ -1,8 +1,9 @@
 //! Where the apple ends before the background: rays that graze its body.
 
 use super::body::Body;
-use super::patch::{Optics, Patch};
-use nalgebra::{Point3, Unit, Vector3};
+use super::ray::nearest_on_ray;
+use crate::optics::{DepthPatch, Projection};
+use nalgebra::{Unit, Vector3};
 
 /// Directions in which the outline is looked for.
 const DIRECTIONS: usize = 96;
@@ -20,18 +21,18 @@ const EDGE_PX: f64 = 0.7;
 /// where what follows is farther away or no reading at all. Where something nearer follows, the outline is hidden
 /// and there is no ray.
 pub(crate) fn grazing_rays(
-    patch: &Patch,
-    optics: &Optics<'_>,
+    patch: &DepthPatch,
+    projection: &Projection<'_>,
     body: &Body,
     sigma: f64,
     out: &mut Vec<Unit<Vector3<f64>>>,
 ) {
     out.clear();
     let (c, r) = (body.center, body.radius);
-    let Some((u, v)) = optics.project(&c) else {
+    let Some((u, v)) = projection.project(&c) else {
         return;
     };
-    let r_px = r / optics.pixel_m((c.z * c.z - r * r).max(0.01).sqrt());
+    let r_px = r / projection.pixel_m((c.z * c.z - r * r).max(0.01).sqrt());
     let tolerance = 3.0 * sigma + 0.06 * r;
     let steps: Vec<f64> = ((0.6 * r_px) as usize..=(1.3 * r_px + 4.0) as usize)
         .map(|step| step as f64)
@@ -49,7 +50,7 @@ pub(crate) fn grazing_rays(
         };
         if let Some(i) = end_of_surface(steps.len(), tolerance, off) {
             let rho = steps[i] + EDGE_PX;
-            if let Some((x, y)) = optics.ray(u + rho * cos, v + rho * sin) {
+            if let Some((x, y)) = projection.ray(u + rho * cos, v + rho * sin) {
                 out.push(Unit::new_normalize(Vector3::new(x, y, 1.0)));
             }
         }
@@ -81,11 +82,6 @@ fn end_of_surface(
         }
     }
     last.filter(|_| after >= BEYOND_PX)
-}
-
-/// The point of a ray nearest to `center`.
-pub(crate) fn nearest_on_ray(ray: &Unit<Vector3<f64>>, center: &Point3<f64>) -> Point3<f64> {
-    Point3::from(ray.into_inner() * center.coords.dot(ray))
 }
 
 /// Of all directions, the share whose ray grazes the body within `tolerance`, less the share whose ray enters

@@ -1,16 +1,15 @@
 //! The surroundings of an apple: a patch of depth in which apples are marked.
 
 use super::body::Body;
-use super::patch::{Optics, Patch};
-use super::sensor::Noise;
-use crate::surroundings::window_of;
+use crate::optics::{DepthNoise, DepthPatch, Projection, window_of_sphere};
+use nalgebra::Point3;
 use pomona_cloud::{DepthImage, PixelWindow};
 use pomona_geometry::Sphere;
 
 /// Depth about an apple, and what each pixel shows.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Shell {
-    pub(crate) patch: Patch,
+    pub(crate) patch: DepthPatch,
     pub(crate) seen: Vec<u8>,
 }
 
@@ -23,25 +22,28 @@ impl Shell {
     pub(crate) fn fill(
         &mut self,
         depth: &DepthImage,
-        optics: &Optics<'_>,
+        projection: &Projection<'_>,
         own: &Body,
         reach: f64,
-        noise: Noise,
+        noise: DepthNoise,
     ) {
         let (w, h) = (depth.width, depth.height);
         let around = Sphere {
             center: own.center,
             radius: reach,
         };
-        self.patch
-            .fill(depth, optics, window_of(&around, optics.camera, w, h));
+        self.patch.fill(
+            depth,
+            projection,
+            window_of_sphere(&around, projection.camera, w, h),
+        );
         let (near, far) = (own.center.z - reach, own.center.z + reach);
         self.seen.clear();
         self.seen.extend(self.patch.z.iter().map(|&z| {
             let z = f64::from(z);
             if z > near && z < far { THING } else { NOTHING }
         }));
-        self.mark(optics, own, w, h, noise);
+        self.mark(projection, own, w, h, noise);
     }
 
     /// Indices in the whole image of the pixels that show `what`.
@@ -50,13 +52,36 @@ impl Shell {
         of.map(|(i, _)| self.patch.image_index(i)).collect()
     }
 
+    /// Number of the readings of `window` that lie on the body's surface.
+    pub(crate) fn surface_count(
+        &self,
+        body: &Body,
+        window: PixelWindow,
+        noise: DepthNoise,
+    ) -> usize {
+        let patch = &self.patch;
+        let sd = noise.sigma(body.center.z);
+        let (x0, y0) = patch.origin;
+        let window = window.intersection(patch.window());
+        let rows = window.y0..window.y1;
+        rows.flat_map(|v| (window.x0..window.x1).map(move |u| (u - x0, v - y0)))
+            .filter(|&(x, y)| {
+                let i = y * patch.width + x;
+                self.seen[i] == APPLE && {
+                    let p = patch.point_at(x, y, patch.z[i]);
+                    body.signed_distance(&p).abs() < surface_band(body, &p, sd)
+                }
+            })
+            .count()
+    }
+
     fn mark(
         &mut self,
-        optics: &Optics<'_>,
+        projection: &Projection<'_>,
         body: &Body,
         width: usize,
         height: usize,
-        noise: Noise,
+        noise: DepthNoise,
     ) {
         let sd = noise.sigma(body.center.z);
         let band = 0.0015 + 2.5 * sd;
@@ -66,13 +91,8 @@ impl Shell {
         };
         let patch = &self.patch;
         let (x0, y0) = patch.origin;
-        let whole = PixelWindow {
-            x0,
-            y0,
-            x1: x0 + patch.width,
-            y1: y0 + patch.height,
-        };
-        let window = window_of(&around, optics.camera, width, height).intersection(whole);
+        let window = window_of_sphere(&around, projection.camera, width, height)
+            .intersection(patch.window());
         for v in window.y0..window.y1 {
             for u in window.x0..window.x1 {
                 let i = (v - y0) * patch.width + (u - x0);
@@ -80,7 +100,7 @@ impl Shell {
                     continue;
                 }
                 let p = patch.point_at(u - x0, v - y0, patch.z[i]);
-                // Noise lies along the ray: where the surface is seen at a slant it counts for less.
+                // DepthNoise lies along the ray: where the surface is seen at a slant it counts for less.
                 let d = p - body.center;
                 let slant = (d.dot(&p.coords) / (d.norm() * p.coords.norm()).max(1e-9)).abs();
                 let own_band = 0.0015 + 2.5 * sd * slant.max(0.25);
@@ -90,4 +110,12 @@ impl Shell {
             }
         }
     }
+}
+
+/// Distance from the body's surface, metres, within which a reading `p` with standard deviation `sd` lies on it.
+fn surface_band(body: &Body, p: &Point3<f64>, sd: f64) -> f64 {
+    // Noise lies along the ray: where the surface is seen at a slant it counts for less.
+    let d = p - body.center;
+    let slant = (d.dot(&p.coords) / (d.norm() * p.coords.norm()).max(1e-9)).abs();
+    0.0015 + 2.5 * sd * slant.max(0.25)
 }

@@ -1,9 +1,10 @@
 //! Spheres that compete for the points of a box.
 
 use super::blocks::Blocks;
-use super::patch::Optics;
-use crate::{BoxRecord, RobustConfig};
+use crate::config::{Radii, RobustConfig};
+use crate::optics::Projection;
 use nalgebra::Point3;
+use pomona_cloud::PixelBox;
 use pomona_fit::sphere_through;
 use pomona_geometry::Sphere;
 use rand_chacha::ChaCha8Rng;
@@ -26,13 +27,13 @@ pub(crate) struct BoxRays {
 
 impl BoxRays {
     /// `None` where the lens has no ray at a corner, or the box no size.
-    pub(crate) fn new(bounds: &BoxRecord, optics: &Optics<'_>) -> Option<Self> {
-        let low = optics.ray(bounds.x_min, bounds.y_min)?;
-        let high = optics.ray(bounds.x_max, bounds.y_max)?;
+    pub(crate) fn new(bounds: &PixelBox, projection: &Projection<'_>) -> Option<Self> {
+        let low = projection.ray(bounds.x_min, bounds.y_min)?;
+        let high = projection.ray(bounds.x_max, bounds.y_max)?;
         (low.0 < high.0 && low.1 < high.1).then(|| Self {
             x: (low.0, high.0),
             y: (low.1, high.1),
-            pixel: optics.pixel_m(1.0),
+            pixel: projection.pixel_m(1.0),
         })
     }
 
@@ -129,6 +130,7 @@ pub(crate) fn candidates(
     points: &Blocks,
     bounds: &BoxRays,
     config: &RobustConfig,
+    radii: Radii,
     threshold: f64,
     rng: &mut ChaCha8Rng,
 ) -> Vec<Sphere> {
@@ -136,7 +138,7 @@ pub(crate) fn candidates(
     let mut best: Vec<(f64, Sphere)> = Vec::with_capacity(config.sphere_kept + 1);
     let mut consider = |sphere: Sphere| {
         let r = sphere.radius;
-        if r < config.radius_min_m || r > config.radius_max_m {
+        if !radii.contains(r) {
             return;
         }
         let against = config.box_weight * bounds.disagreement(&sphere);

@@ -4,8 +4,8 @@
 //! whatever the noise of the depth. Crossings that follow each other from row to row make a chain, and pieces of
 //! chains are short straight strips: with place, direction and width, from which lines are put together.
 
-use super::patch::Patch;
 use super::shell::{APPLE, NOTHING, Shell};
+use crate::optics::DepthPatch;
 use nalgebra::{Point3, Vector3};
 
 /// A short straight piece of something narrow.
@@ -197,7 +197,7 @@ fn crossings_of(
 /// Cuts a chain into straight pieces.
 fn pieces(
     chain: &Chain,
-    patch: &Patch,
+    patch: &DepthPatch,
     rules: &StripRules,
     pixel_per_z: f64,
     transposed: bool,
@@ -229,7 +229,12 @@ fn span(a: &Crossing, b: &Crossing, pixel_per_z: f64) -> f64 {
 }
 
 /// Straight lines through the middles and depths of a piece, over the row.
-fn straight(part: &[Crossing], patch: &Patch, pixel_per_z: f64, transposed: bool) -> Option<Strip> {
+fn straight(
+    part: &[Crossing],
+    patch: &DepthPatch,
+    pixel_per_z: f64,
+    transposed: bool,
+) -> Option<Strip> {
     let n = part.len() as f64;
     let mean = |f: &dyn Fn(&Crossing) -> f64| part.iter().map(f).sum::<f64>() / n;
     let line = mean(&|c| c.line as f64);

@@ -1,8 +1,9 @@
 //! Where another look at an apple would help.
 
 use super::shell::{Shell, THING};
-use nalgebra::Vector3;
+use nalgebra::{Unit, Vector3};
 use pomona_geometry::Sphere;
+use pomona_transforms::{CameraFrame, Direction};
 
 /// By how much the view turns, radians.
 const TURN_RAD: f64 = 1.0;
@@ -21,7 +22,7 @@ const STRIDE: usize = 5;
 /// up and down.
 ///
 /// `None` for an apple at the camera.
-pub(crate) fn clearest(shell: &Shell, apple: &Sphere) -> Option<Vector3<f64>> {
+pub(crate) fn clearest(shell: &Shell, apple: &Sphere) -> Option<Direction<CameraFrame>> {
     let back = (-apple.center.coords).try_normalize(1e-9)?;
     let right = Vector3::y().cross(&back).try_normalize(1e-9)?;
     let down = back.cross(&right);
@@ -45,5 +46,5 @@ pub(crate) fn clearest(shell: &Shell, apple: &Sphere) -> Option<Vector3<f64>> {
         }
     }
     let least = (0..DIRECTIONS).min_by_key(|&k| things[k])?;
-    Some(directions[least])
+    Some(Direction::from_unit(Unit::new_unchecked(directions[least])))
 }

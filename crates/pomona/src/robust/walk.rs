@@ -4,8 +4,8 @@
 //! behind the axis, or are none, there is no branch: a leaf that looks like one ends within its own length.
 
 use super::axis::Axis;
-use super::patch::Optics;
 use super::shell::{APPLE, NOTHING, Shell};
+use crate::optics::Projection;
 
 /// What the pixels across the axis show at one place.
 #[derive(Clone, Copy, Debug)]
@@ -66,7 +66,7 @@ pub(crate) struct Pace {
 /// The slices along an axis with their places; the indices of the pixels of things are added to `pixels`.
 pub(crate) fn walk(
     shell: &Shell,
-    optics: &Optics<'_>,
+    projection: &Projection<'_>,
     axis: &Axis,
     pace: &Pace,
     out: &mut Vec<(f64, Slice)>,
@@ -77,7 +77,7 @@ pub(crate) fn walk(
     for k in -n..=n {
         let s = f64::from(k) * pace.step;
         let tolerance = pace.tolerance + pace.growth * s.abs();
-        let slice = match Across::new(shell, optics, axis, s, tolerance) {
+        let slice = match Across::new(shell, projection, axis, s, tolerance) {
             Some(across) => across.slice(pixels.as_deref_mut()),
             None => Slice::Outside,
         };
@@ -121,15 +121,15 @@ struct Across<'a> {
 impl<'a> Across<'a> {
     fn new(
         shell: &'a Shell,
-        optics: &Optics<'_>,
+        projection: &Projection<'_>,
         axis: &Axis,
         s: f64,
         tolerance: f64,
     ) -> Option<Self> {
         const ASIDE_M: f64 = 0.01;
         let a = axis.at(s);
-        let (u, v) = optics.project(&a)?;
-        let (u1, v1) = optics.project(&(a + axis.side * ASIDE_M))?;
+        let (u, v) = projection.project(&a)?;
+        let (u1, v1) = projection.project(&(a + axis.side * ASIDE_M))?;
         let (du, dv) = (u1 - u, v1 - v);
         let length = (du * du + dv * dv).sqrt();
         if !(length > 0.01 && length.is_finite()) {

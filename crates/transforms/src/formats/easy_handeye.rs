@@ -1,6 +1,7 @@
 //! Calibration files of `easy_handeye` and `easy_handeye2`.
 
-use super::{FormatError, checked, shown};
+use super::checked::{checked, shown};
+use super::error::FormatError;
 use crate::{FrameTag, NamedTransform, Transform};
 use serde::Deserialize;
 

@@ -1,6 +1,7 @@
 //! Matrices as OpenCV's `FileStorage` writes them in YAML.
 
-use super::{FormatError, checked, shown};
+use super::checked::{checked, shown};
+use super::error::FormatError;
 use crate::{FrameTag, NamedTransform, Transform};
 use nalgebra::{Matrix4, UnitQuaternion, Vector3};
 use serde::Deserialize;

@@ -1,6 +1,7 @@
 //! Arguments of ROS's `static_transform_publisher`.
 
-use super::{FormatError, checked, number, shown};
+use super::checked::{checked, number, shown};
+use super::error::FormatError;
 use crate::{EulerZyx, FrameTag, NamedTransform, Transform};
 
 const REMEDY: &str = "give `x y z yaw pitch roll frame_id child_frame_id`, `x y z qx qy qz qw frame_id child_frame_id`, or --x --y --z with --qx --qy --qz --qw or --roll --pitch --yaw, --frame-id and --child-frame-id";

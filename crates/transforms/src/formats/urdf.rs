@@ -1,7 +1,8 @@
 //! URDF's `<origin xyz rpy>`.
 
+use super::checked::{checked, number, shown};
+use super::error::FormatError;
 use super::static_transform::with_angles;
-use super::{FormatError, checked, number, shown};
 use crate::{EulerZyx, FrameTag, NamedTransform};
 use roxmltree::{Document, Node};
 

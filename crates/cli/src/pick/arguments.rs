@@ -1,0 +1,105 @@
+use super::files::FileChoice;
+use crate::apple_cloud::CloudChoice;
+use crate::detector::DetectorArguments;
+use crate::settings::SettingsArguments;
+use clap::Args;
+use std::path::PathBuf;
+
+const EXAMPLES: &str = "\
+Examples:
+  pomona pick frames/a --out out                      out/picks.json, picture.png, apple-N.ply
+  pomona pick frames/a frames/b --out out             out/a/... and out/b/...
+  pomona pick frames/a --boxes detections.json --out out
+  pomona pick frames/a --detect --model mine.onnx --out out
+  pomona pick frames/a --transform robot_from_camera.json --out out
+  pomona pick frames/a --transform robot_from_camera.json --robot robot.toml --ros --out out
+  pomona pick frames/a --radius-max-mm 60 --set paper.shell_outer=2.5 --out out
+  pomona pick frames/left frames/right --fuse --out out    out/fused.json beside out/left and out/right
+  pomona pick frames/* --out out --json | jq '.[].picks[].direction'
+
+With --fuse, the frames show one tree. A frame's pose is robot_from_camera.json in its folder, else that of \
+--transform: a camera at rest.
+
+A frame is a folder with color.png (or .jpg), depth.png (16 bit, registered to colour), camera.json and, where \
+they are known, boxes (boxes.xml VOC, boxes.json COCO or boxes.txt YOLO). Without boxes a detector finds the apples, \
+and depth marks those that are none: see `detection` in `pomona config`.
+
+In the table, `angle` is that of the direction in the picture (0 right, 90 up) and `away` that out of the image \
+plane (positive away from the camera).
+
+An apple without an answer is refused with its reason, and the run goes on. Exit code 0: every frame was \
+processed. 2: bad input; frames that failed have written nothing.";
+
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+#[allow(
+    clippy::struct_excessive_bools,
+    reason = "each is a flag of the command line"
+)]
+pub(crate) struct PickArguments {
+    /// Folders of frames.
+    #[arg(required = true, value_name = "FRAME")]
+    pub(super) frames: Vec<PathBuf>,
+    /// Where to write; several frames get a folder each in there. Our own files are replaced.
+    #[arg(short, long, value_name = "DIR")]
+    pub(super) out: PathBuf,
+    /// Boxes of the apples (VOC, COCO or YOLO) in place of the frame's own; for one frame.
+    #[arg(long, value_name = "FILE")]
+    pub(super) boxes: Option<PathBuf>,
+    /// Let the detector find the apples, also where a frame has boxes.
+    #[arg(long, conflicts_with = "boxes")]
+    pub(super) detect: bool,
+    /// Seed of the random numbers.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub(super) seed: u64,
+    /// Transform from the camera's to the robot's frame; adds the answers in the robot's frame.
+    #[arg(long, value_name = "FILE")]
+    pub(super) transform: Option<PathBuf>,
+    /// Plan how a robot with these settings (see `pomona config --robot`) gets to each apple and in
+    /// which order; adds gripper, approach, clearance and order to the record, and the path to the picture.
+    #[arg(long, value_name = "FILE", requires = "transform")]
+    pub(super) robot: Option<PathBuf>,
+    /// Write the plan as messages of ROS 2 and `MoveIt` too, ros-*.yaml for `ros2 topic pub`.
+    #[arg(long, requires = "robot")]
+    pub(super) ros: bool,
+    /// Write frame and plan as recording.mcap too, for Foxglove.
+    #[cfg(feature = "mcap")]
+    #[arg(long, requires = "robot")]
+    pub(super) mcap: bool,
+    /// Combine frames of one tree in the robot's frame: one answer for each apple, how far the tree
+    /// swayed, which apples moved; written to fused.json.
+    #[arg(long)]
+    pub(super) fuse: bool,
+    /// Write the points of all frames in the robot's frame to fused.ply too, thinned to
+    /// `fusion.voxel_m`.
+    #[arg(long, requires = "fuse")]
+    pub(super) fused_cloud: bool,
+    /// Print the record to standard output in place of the table: one JSON object for one frame, an
+    /// array for several; the fused one with --fuse.
+    #[arg(long)]
+    pub(super) json: bool,
+    /// Leave picture.png out.
+    #[arg(long)]
+    pub(super) no_picture: bool,
+    /// Which apples get a coloured cloud apple-N.ply: best (the picked apple with most surface
+    /// points), all, none, or numbers such as 0,3.
+    #[arg(long, value_name = "WHICH", default_value = "best")]
+    pub(super) clouds: CloudChoice,
+    #[command(flatten)]
+    pub(super) detector: DetectorArguments,
+    #[command(flatten)]
+    pub(super) settings: SettingsArguments,
+}
+
+impl PickArguments {
+    /// Which files a frame's answers are written to.
+    pub(super) fn files(&self) -> FileChoice<'_> {
+        FileChoice {
+            picture: !self.no_picture,
+            clouds: &self.clouds,
+            ros: self.ros,
+            #[cfg(feature = "mcap")]
+            recording: self.mcap,
+        }
+    }
+}

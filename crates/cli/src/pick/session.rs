@@ -1,0 +1,131 @@
+use super::arguments::PickArguments;
+use super::files::{self, RobotOutput};
+use super::jobs::Job;
+use crate::terminal::Terminal;
+use anyhow::anyhow;
+use pomona::{
+    ApproachConfig, CheckedFrame, Config, FrameAnswer, Picker, Robot, RobotFromCamera, find_apples,
+};
+use pomona_cloud::{Frame, read_boxes};
+use pomona_detect::Detector;
+use std::cell::OnceCell;
+use std::path::Path;
+use std::time::Instant;
+
+/// What is the same for all frames of a run.
+pub(super) struct Session<'a> {
+    picker: Picker,
+    transform: Option<RobotFromCamera>,
+    robot: Option<Robot>,
+    /// Opened when the first frame needs it.
+    detector: OnceCell<Box<dyn Detector>>,
+    arguments: &'a PickArguments,
+}
+
+impl<'a> Session<'a> {
+    pub(super) fn new(arguments: &'a PickArguments, config: Config) -> anyhow::Result<Self> {
+        Ok(Self {
+            picker: Picker::new(config)?,
+            transform: arguments
+                .transform
+                .as_ref()
+                .map(RobotFromCamera::read)
+                .transpose()?,
+            robot: arguments
+                .robot
+                .as_ref()
+                .map(|path| Robot::new(ApproachConfig::read(path)?))
+                .transpose()?,
+            detector: OnceCell::new(),
+            arguments,
+        })
+    }
+
+    pub(super) fn config(&self) -> &Config {
+        self.picker.config()
+    }
+
+    /// The transform that was given for all frames.
+    pub(super) fn transform(&self) -> Option<&RobotFromCamera> {
+        self.transform.as_ref()
+    }
+
+    /// Reads a frame, answers it, plans the robot's way to its apples, and writes its files, all or none.
+    pub(super) fn run(
+        &self,
+        job: &Job,
+        pose: Option<&RobotFromCamera>,
+        terminal: Terminal,
+    ) -> anyhow::Result<FrameAnswer> {
+        let start = Instant::now();
+        let frame = self.read(&job.frame)?;
+        let frame = CheckedFrame::new(&frame)?;
+        let id = &frame.frame().id;
+        log::info!("{id}: read in {:.0?}", start.elapsed());
+
+        let start = Instant::now();
+        let mut answer = self.answer(&frame, pose)?;
+        log::info!("{id}: picked in {:.0?}", start.elapsed());
+
+        let robot = self.robot.as_ref().zip(pose).map(|(robot, pose)| {
+            let start = Instant::now();
+            let plan = robot.plan(&frame, &mut answer, pose);
+            log::info!("{id}: planned in {:.1?}", start.elapsed());
+            RobotOutput { robot, plan, pose }
+        });
+
+        let start = Instant::now();
+        let files = self.arguments.files();
+        files::write(
+            &job.output,
+            &files,
+            &frame,
+            &answer,
+            robot.as_ref(),
+            terminal,
+        )?;
+        log::info!("{id}: written in {:.0?}", start.elapsed());
+        Ok(answer)
+    }
+
+    fn read(&self, folder: &Path) -> anyhow::Result<Frame> {
+        let mut frame = Frame::read(folder)?;
+        if let Some(path) = &self.arguments.boxes {
+            frame.boxes = Some(read_boxes(path, frame.color.width, frame.color.height)?);
+        }
+        Ok(frame)
+    }
+
+    /// The answers for a frame's boxes, or for those that the detector finds.
+    fn answer(
+        &self,
+        frame: &CheckedFrame<'_>,
+        pose: Option<&RobotFromCamera>,
+    ) -> anyhow::Result<FrameAnswer> {
+        let seed = self.arguments.seed;
+        if frame.frame().boxes.is_some() && !self.arguments.detect {
+            return Ok(self.picker.pick(frame, seed, pose)?);
+        }
+        let detector = self.detector(&frame.frame().id)?;
+        let detected = find_apples(frame, detector, self.config())?;
+        log::info!("{}: {:?}", frame.frame().id, detected.summary);
+        Ok(self.picker.pick_detected(frame, &detected, seed, pose)?)
+    }
+
+    /// The detector that the command line asks for, the same for all frames.
+    fn detector(&self, frame_id: &str) -> anyhow::Result<&dyn Detector> {
+        if let Some(detector) = self.detector.get() {
+            return Ok(&**detector);
+        }
+        let opened = self.arguments.detector.open().map_err(|e| {
+            if self.arguments.detect {
+                return anyhow!(e);
+            }
+            anyhow!(
+                "frame '{frame_id}' has no boxes, and the detector cannot be used: {e}; or put boxes.xml, boxes.json or \
+                 boxes.txt into its folder, or give --boxes FILE"
+            )
+        })?;
+        Ok(&**self.detector.get_or_init(|| opened))
+    }
+}

@@ -1,0 +1,59 @@
+use thiserror::Error;
+
+/// Why a camera cannot be computed with.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum CameraError {
+    /// A number that must be finite and positive is not.
+    #[error(
+        "camera field `{field}` is {value} but must be finite and positive; calibrate the camera, or copy its intrinsics again"
+    )]
+    NotPositive {
+        /// Name of the field.
+        field: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// A number that must be finite is not.
+    #[error(
+        "camera field `{field}` is {value} but must be finite; calibrate the camera, or copy its intrinsics again"
+    )]
+    NotFinite {
+        /// Name of the field.
+        field: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// A distortion model that is not known here.
+    #[error(
+        "distortion model `{model}` is not known; use plumb_bob (or brown_conrady) or rational_polynomial, or undistort the images and leave `distortion` out"
+    )]
+    UnknownModel {
+        /// The model's name as it was given.
+        model: String,
+    },
+    /// A distortion model with the wrong number of coefficients.
+    #[error(
+        "distortion model `{model}` takes {expected} coefficients (k1 k2 p1 p2 k3 …, OpenCV's order) but {found} are given; copy all of them"
+    )]
+    CoefficientCount {
+        /// The model's name.
+        model: String,
+        /// How many it takes.
+        expected: &'static str,
+        /// How many there are.
+        found: usize,
+    },
+    /// A distortion that cannot be inverted over the whole image.
+    #[error(
+        "the distortion of model `{model}` has no inverse at pixel ({u}, {v}); check the order and the values of the coefficients"
+    )]
+    NotInvertible {
+        /// The model's name.
+        model: String,
+        /// Column of the pixel.
+        u: f64,
+        /// Row of the pixel.
+        v: f64,
+    },
+}

@@ -1,0 +1,4 @@
+//! Clouds, images and frames that other programs and cameras wrote.
+
+mod foreign;
+mod orchard;

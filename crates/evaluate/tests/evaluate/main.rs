@@ -1,0 +1,6 @@
+//! Evaluations as a whole: scenes and folders, calipers, a simulated robot, and the regression gate.
+
+mod calipers;
+mod evaluation;
+mod robot;
+mod sabotage;

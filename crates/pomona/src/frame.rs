@@ -1,0 +1,127 @@
+use crate::error::PickError;
+use crate::optics::Projection;
+use pomona_cloud::{DepthPoints, Frame, PixelWindow};
+use std::sync::OnceLock;
+
+/// A frame whose parts agree: checked once, its depth image deprojected at most once, for all stages.
+#[derive(Debug)]
+pub struct CheckedFrame<'a> {
+    frame: &'a Frame,
+    projection: Projection<'a>,
+    points: OnceLock<DepthPoints>,
+}
+
+impl<'a> CheckedFrame<'a> {
+    /// Checks that images, camera and boxes fit together.
+    ///
+    /// # Errors
+    ///
+    /// [`PickError::Frame`] where they contradict each other.
+    pub fn new(frame: &'a Frame) -> Result<Self, PickError> {
+        let refused = |source| PickError::Frame {
+            frame: frame.id.clone(),
+            source: Box::new(source),
+        };
+        frame.validate().map_err(refused)?;
+        // What deprojects no pixel meets every condition for deprojecting all of them.
+        let nothing = PixelWindow::full(0, 0);
+        DepthPoints::new()
+            .fill(&frame.depth, &frame.camera, nothing)
+            .map_err(refused)?;
+        let projection = Projection::new(&frame.camera).map_err(|source| {
+            refused(pomona_cloud::CloudError::Camera {
+                path: frame.id.clone().into(),
+                source,
+            })
+        })?;
+        Ok(Self {
+            frame,
+            projection,
+            points: OnceLock::new(),
+        })
+    }
+
+    /// The frame.
+    pub fn frame(&self) -> &'a Frame {
+        self.frame
+    }
+
+    /// The points of the whole depth image, in the order of their pixels; deprojected when first asked for.
+    pub fn points(&self) -> &DepthPoints {
+        self.points.get_or_init(|| {
+            let depth = &self.frame.depth;
+            let mut points = DepthPoints::new();
+            // `new` has made sure that it does not fail; a failure would leave no points.
+            let _ = points.fill(
+                depth,
+                &self.frame.camera,
+                PixelWindow::full(depth.width, depth.height),
+            );
+            points
+        })
+    }
+
+    /// Replaces the content of `out` by the points of `window`, as far as it lies in the image.
+    pub(crate) fn copy_points(&self, window: PixelWindow, out: &mut DepthPoints) {
+        let (width, height) = self.size();
+        let window = window.intersection(PixelWindow::full(width, height));
+        let all = self.points();
+        out.clear();
+        for v in window.y0..window.y1 {
+            let at = |u: usize| {
+                let pixel = v * width + u;
+                all.pixel.partition_point(|&p| (p as usize) < pixel)
+            };
+            let row = at(window.x0)..at(window.x1);
+            out.x.extend_from_slice(&all.x[row.clone()]);
+            out.y.extend_from_slice(&all.y[row.clone()]);
+            out.z.extend_from_slice(&all.z[row.clone()]);
+            out.pixel.extend_from_slice(&all.pixel[row]);
+        }
+    }
+
+    /// Width and height of the images, pixels.
+    pub(crate) fn size(&self) -> (usize, usize) {
+        (self.frame.depth.width, self.frame.depth.height)
+    }
+
+    /// The camera with its lens.
+    pub(crate) fn projection(&self) -> &Projection<'a> {
+        &self.projection
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use pomona_scenes::Suite;
+
+    #[test]
+    fn windows_are_what_deprojecting_them_gives() {
+        let frame = Suite::Lab15.cases().next().unwrap().scene().frame;
+        let checked = CheckedFrame::new(&frame).unwrap();
+        let mut copied = DepthPoints::new();
+        for (x0, y0, x1, y1) in [
+            (300, 200, 420, 333),
+            (0, 0, 5, 5),
+            (600, 400, 9999, 9999),
+            (7, 7, 7, 9),
+        ] {
+            let window = PixelWindow { x0, y0, x1, y1 };
+            checked.copy_points(window, &mut copied);
+            let filled = frame.window(window).unwrap();
+            assert_eq!(
+                (&copied.x, &copied.y, &copied.z, &copied.pixel),
+                (&filled.x, &filled.y, &filled.z, &filled.pixel)
+            );
+        }
+    }
+
+    #[test]
+    fn images_of_two_sizes_are_refused_by_the_frames_name() {
+        let mut frame = Suite::Lab15.cases().next().unwrap().scene().frame;
+        frame.depth.width -= 1;
+        let error = CheckedFrame::new(&frame).unwrap_err().to_string();
+        assert!(error.contains(&frame.id), "{error}");
+    }
+}

@@ -1,0 +1,13 @@
+//! What the depth image means: from pixels to rays and metres, the noise of a reading, where depth jumps.
+//!
+//! Detection and both methods read the image through this module.
+
+mod depth_patch;
+mod noise;
+mod projection;
+mod windows;
+
+pub(crate) use depth_patch::DepthPatch;
+pub(crate) use noise::{DepthNoise, depth_jump_m};
+pub(crate) use projection::Projection;
+pub(crate) use windows::{window_of_box, window_of_sphere};

@@ -1,0 +1,13 @@
+//! The pipeline on generated frames, stage by stage.
+
+#![allow(
+    clippy::unwrap_used,
+    reason = "a test that cannot go on should fail where it stands"
+)]
+
+mod answers;
+mod detection;
+mod fallback;
+mod pick;
+mod robot;
+mod robust;

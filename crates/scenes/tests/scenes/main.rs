@@ -1,0 +1,8 @@
+//! What scenes promise: the same bytes again, sensors with the stated statistics, truth that the images show.
+
+#![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+mod folder;
+mod recovery;
+mod sensor;
+mod suites;

@@ -1,0 +1,6 @@
+//! What is made from one declaration.
+
+mod checks;
+mod description;
+mod files;
+mod oven;

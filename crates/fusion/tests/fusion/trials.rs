@@ -10,7 +10,7 @@ use pomona_fusion::{
 };
 use pomona_transforms::{Position, RobotFrame};
 
-fn fused(frames: &[(FrameAnswer, RobotFromCamera)], config: &FusedTreeConfig) -> FusedTree {
+fn fused(frames: &[(FrameAnswer, RobotFromCamera)], config: &FusionConfig) -> FusedTree {
     let posed: Vec<PosedAnswer> = frames
         .iter()
         .map(|(answer, robot_from_camera)| PosedAnswer::new(answer, robot_from_camera))
@@ -192,7 +192,7 @@ fn apples_at_rest_are_called_moved_no_more_often_than_the_rate_says() {
             trial.answer("a", &tree, &still(-0.4)),
             trial.answer("b", &tree, &View { sway, ..still(0.4) }),
         ];
-        let fusion = fused(&frames, &FusedTreeConfig::default());
+        let fusion = fused(&frames, &FusionConfig::default());
         fusion.apples.iter().any(|a| a.movement.is_some())
     });
     assert_eq!(default.count(), 0);
@@ -292,7 +292,7 @@ fn what_contradicts_itself_is_refused_by_name() {
             .iter()
             .map(|(answer, robot_from_camera)| PosedAnswer::new(answer, robot_from_camera))
             .collect();
-        fuse(&posed, &FusedTreeConfig::default()).unwrap_err()
+        fuse(&posed, &FusionConfig::default()).unwrap_err()
     };
     assert!(matches!(
         run(std::slice::from_ref(&a)),
@@ -333,7 +333,7 @@ fn rendered_orchards_from_three_poses() {
     let mut moved = 0;
     for seed in 0..6 {
         let scene = views(3000 + seed);
-        let fusion = fused(&scene.frames, &FusedTreeConfig::default());
+        let fusion = fused(&scene.frames, &FusionConfig::default());
         moved += fusion
             .apples
             .iter()

@@ -1,12 +1,12 @@
 //! Time of planning an apple, of ordering a frame, and of building a frame's scene.
 //!
-//! Lines `accuracy NAME TEXT` on standard output say how many of the apples were free, lines `apple NAME TEXT` the time of
-//! planning one apple: the least of many rounds for each, which another program's work does not lengthen; and
+//! Lines `accuracy NAME TEXT` on standard output say how many of the apples were free, lines `apple NAME TEXT` the time
+//! of planning one apple: the least of many rounds for each, which another program's work does not lengthen; and
 //! their mean, median and largest. With the argument `--test` they are all that is measured.
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use nalgebra::{Point3, Vector3};
-use pomona_approach::{ApproachConfig, Planner, Scene, StartPose, Target, pick_order};
+use pomona_approach::{ApproachConfig, ObstacleMap, Planner, StartPose, Target, pick_order};
 use pomona_geometry::{Capsule, Segment, Sphere};
 use pomona_transforms::Direction;
 use rand::{RngExt, SeedableRng};
@@ -81,9 +81,9 @@ impl Orchard {
         }
     }
 
-    fn scene(&self, planner: &Planner) -> Scene {
+    fn scene(&self, planner: &Planner) -> ObstacleMap {
         let (apples, branches) = (self.apples.clone(), self.branches.clone());
-        Scene::new(apples, branches, &self.cloud, &planner.config().clearance)
+        ObstacleMap::new(apples, branches, &self.cloud, &planner.config().clearance)
     }
 }
 
@@ -93,7 +93,7 @@ const ROUNDS: usize = 200;
 /// The least times of planning each target, in ascending order.
 fn least_times(
     planner: &Planner,
-    scene: &Scene,
+    scene: &ObstacleMap,
     targets: &[Target],
     start: &StartPose,
 ) -> Vec<f64> {

@@ -1,4 +1,4 @@
-use crate::Clearance;
+use crate::{Clearance, Stage};
 use thiserror::Error;
 
 /// Which limit of the arm a place lies beyond.
@@ -76,6 +76,15 @@ pub enum Refusal {
 }
 
 impl Refusal {
+    /// Whether another transit may avoid it.
+    pub(crate) fn is_of_the_transit(&self) -> bool {
+        match self {
+            Self::Collision(clearance) => clearance.stage == Stage::Transit,
+            Self::OutOfReach { .. } => true,
+            _ => false,
+        }
+    }
+
     /// Its name in `picks.json`.
     pub fn name(&self) -> &'static str {
         match self {

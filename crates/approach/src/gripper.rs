@@ -1,4 +1,4 @@
-use crate::body::Body;
+use crate::swept_volume::SweptVolume;
 use nalgebra::{Isometry3, Point3, Vector3};
 use pomona_settings::settings;
 use pomona_transforms::{Direction, ToolModel, Transform};
@@ -79,20 +79,20 @@ impl Gripper {
     }
 
     /// The parts of the open gripper in the tool frame.
-    pub(crate) fn open(&self) -> [Body; 4] {
+    pub(crate) fn open(&self) -> [SweptVolume; 4] {
         let y = self.finger_axis();
         let (back, tip) = self.finger_span();
         let finger = |y: f64| {
             let radius = 0.5 * self.finger_thickness_m;
-            Body::capsule(Point3::new(back, y, 0.0), Point3::new(tip, y, 0.0), radius)
+            SweptVolume::capsule(Point3::new(back, y, 0.0), Point3::new(tip, y, 0.0), radius)
         };
         let [palm, wrist] = self.behind();
         [finger(y), finger(-y), palm, wrist]
     }
 
-    fn behind(&self) -> [Body; 2] {
+    fn behind(&self) -> [SweptVolume; 2] {
         let (x, y) = (self.palm_axis(), self.finger_axis());
-        let palm = Body::capsule(
+        let palm = SweptVolume::capsule(
             Point3::new(x, -y, 0.0),
             Point3::new(x, y, 0.0),
             0.5 * self.palm_thickness_m,
@@ -100,7 +100,7 @@ impl Gripper {
         let radius = 0.5 * self.wrist_diameter_m;
         let front = -self.palm_depth_m - radius;
         let end = (radius - self.palm_depth_m - self.wrist_length_m).min(front);
-        let wrist = Body::capsule(
+        let wrist = SweptVolume::capsule(
             Point3::new(front, 0.0, 0.0),
             Point3::new(end, 0.0, 0.0),
             radius,
@@ -110,7 +110,7 @@ impl Gripper {
 
     /// What the gripper sweeps on its straight of `length_m` that ends about an apple of this
     /// radius, in the tool frame at the apple: fingers open and closed and all between, palm, wrist.
-    pub(crate) fn swept(&self, length_m: f64, radius_m: f64) -> [Body; 4] {
+    pub(crate) fn swept(&self, length_m: f64, radius_m: f64) -> [SweptVolume; 4] {
         let thickness = self.finger_thickness_m;
         let open = self.finger_axis();
         let closed = (radius_m + 0.5 * thickness).min(open);
@@ -119,7 +119,7 @@ impl Gripper {
         let finger = |sign: f64| {
             let corner = Point3::new(back - length_m, sign * open, 0.0);
             let inward = Vector3::new(0.0, sign * (closed - open), 0.0);
-            Body::rectangle(corner, run, inward, 0.5 * thickness)
+            SweptVolume::rectangle(corner, run, inward, 0.5 * thickness)
         };
         let path = Vector3::new(-length_m, 0.0, 0.0);
         let [palm, wrist] = self.behind().map(|part| part.swept(path));
@@ -134,7 +134,7 @@ impl Gripper {
 
     /// The farthest that any part is from the tool's origin.
     pub(crate) fn radius_about_tool(&self) -> f64 {
-        let far = |body: &Body| {
+        let far = |body: &SweptVolume| {
             let corners = body.corners();
             corners.iter().map(|p| p.coords.norm()).fold(0.0, f64::max) + body.radius
         };

@@ -1,8 +1,8 @@
-//! How a gripper gets to an apple and away again: pose, path, clearance, refusals, order.
+//! How a gripper reaches an apple and retreats: pose, path, clearance, refusals, order of picking.
 //!
 //! ```
 //! use nalgebra::{Point3, Vector3};
-//! use pomona_approach::{ApproachConfig, Planner, Scene, StartPose, Target, pick_order};
+//! use pomona_approach::{ApproachConfig, Planner, ObstacleMap, StartPose, Target, pick_order};
 //! use pomona_geometry::{Capsule, Segment, Sphere};
 //! use pomona_transforms::Direction;
 //!
@@ -13,7 +13,7 @@
 //! let upwards = Direction::new(Vector3::z()).unwrap();
 //!
 //! let planner = Planner::new(ApproachConfig::default())?;
-//! let scene = Scene::new(vec![apple], vec![branch], &[], &planner.config().clearance);
+//! let scene = ObstacleMap::new(vec![apple], vec![branch], &[], &planner.config().clearance);
 //! let mut target = Target::new(0, upwards);
 //! target.branch = Some(Vector3::y());
 //! let start = StartPose::looking_along_x(Point3::new(0.3, 0.0, 0.4));
@@ -45,7 +45,7 @@
 //!   [`Quintic`]s that agree in position, velocity and acceleration where they meet. The source
 //!   says that its path is a polynomial, and gives neither degree nor coefficients; five is the
 //!   least degree that takes all three at both ends.
-//! - A [`Scene`] holds what is in the way: apples, branches of the extent that was seen, and the
+//! - A [`ObstacleMap`] holds the obstacles: apples, branches of the extent that was seen, and the
 //!   points of the cloud that neither explains. [`Clearance`] is the signed distance of the
 //!   gripper from the nearest of these along the whole path, not at samples of it: between
 //!   samples it is bounded by the speed of the gripper's fastest point, and the straight stages are
@@ -74,12 +74,15 @@
 //! - Farouki 2012, "The Bernstein polynomial basis", CAGD 29(6), 379–419,
 //!   doi 10.1016/j.cagd.2012.03.001: a polynomial lies within its coefficients' hull.
 
-mod advance;
-mod body;
+mod approach;
+mod attempt;
 mod clearance;
+mod collision_check;
 mod config;
 mod error;
 mod gripper;
+mod obstacle_map;
+mod obstacles;
 mod order;
 mod outline;
 mod path;
@@ -87,20 +90,23 @@ mod planner;
 mod point_tree;
 mod pose;
 mod quintic;
-mod scene;
-mod sweep;
+mod shape;
+mod straight_motion;
+mod swept_volume;
 mod target;
+mod transit;
 
+pub use approach::Approach;
 pub use clearance::{Clearance, Obstacle, Stage};
 pub use config::{ApproachConfig, ClearanceConfig, MotionConfig, ReachConfig, Roll, SearchConfig};
 pub use error::{ReachLimit, Refusal};
 pub use gripper::Gripper;
+pub use obstacle_map::ObstacleMap;
 pub use order::{Order, Rank, Reason, pick_order};
 pub use path::{Path, Piece, Sample};
-pub use planner::{Approach, Planner};
+pub use planner::Planner;
 pub use point_tree::PointTree;
 pub use pomona_settings::ConfigError;
 pub use pose::tool_rotation;
 pub use quintic::{Quintic, State};
-pub use scene::Scene;
 pub use target::{StartPose, Target};

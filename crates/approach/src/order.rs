@@ -1,15 +1,15 @@
-use crate::{Approach, Planner, Refusal, Scene, StartPose, Target};
+use crate::{Approach, ObstacleMap, Planner, Refusal, StartPose, Target};
 
 /// Why a target has its rank.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reason {
-    /// Its way is free as the frame is. Among these the surer direction goes first, then the larger
+    /// Its approach is free as the frame is. Among these the surer direction goes first, then the larger
     /// clearance.
     Unobstructed,
-    /// Its way is free once the apples before it are gone.
+    /// Its approach is free once the apples before it are gone.
     AfterBlockers,
     /// It blocks what blocks it: of such a circle, the one that comes least too near to the others
-    /// goes first. Its way is *not* free; its clearance says by how much.
+    /// goes first. Its approach is *not* free; its clearance says by how much.
     CycleBroken,
 }
 
@@ -38,7 +38,7 @@ pub struct Rank {
 /// In which order to pick the targets of a frame, and how each.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Order {
-    /// The targets that can be picked, the first first.
+    /// The targets that can be picked, in picking order.
     pub ranks: Vec<Rank>,
     /// How each target is approached, or why it is not; in the targets' order.
     ///
@@ -50,14 +50,14 @@ pub struct Order {
 /// blocks.
 ///
 /// Each target is planned with everything in place. One that collides is planned again without the
-/// other targets that can be picked themselves; where that succeeds, those that its way touches are
+/// other targets that can be picked themselves; where that succeeds, those that its approach touches are
 /// its blockers. A target is ranked when all its blockers are; of those ready, the unobstructed one,
 /// then the one with the higher confidence, then the larger slack, then the lower index goes first.
 /// Where none is ready, blockers form circles, and the target with the greatest slack from its
 /// blockers goes next as [`Reason::CycleBroken`].
 pub fn pick_order(
     planner: &Planner,
-    scene: &Scene,
+    scene: &ObstacleMap,
     targets: &[Target],
     start: &StartPose,
 ) -> Order {
@@ -68,7 +68,7 @@ pub fn pick_order(
     let blocked: Vec<usize> = (0..targets.len())
         .filter(|&i| matches!(approaches[i], Err(Refusal::Collision(_))))
         .collect();
-    clear_blocked(planner, scene, targets, start, &blocked, &mut approaches);
+    plan_without_blockers(planner, scene, targets, start, &blocked, &mut approaches);
     let blockers = blockers(planner, scene, &blocked, &approaches);
     let ranks = rank(planner, scene, targets, &mut approaches, &blockers);
     Order { ranks, approaches }
@@ -76,9 +76,9 @@ pub fn pick_order(
 
 /// Plans the blocked targets without the others that can be picked, until that changes nothing: a
 /// target that stays refused is in the way of the others for good.
-fn clear_blocked(
+fn plan_without_blockers(
     planner: &Planner,
-    scene: &Scene,
+    scene: &ObstacleMap,
     targets: &[Target],
     start: &StartPose,
     blocked: &[usize],
@@ -111,10 +111,10 @@ fn clear_blocked(
     }
 }
 
-/// For each target, the indices of those that its way touches.
+/// For each target, the indices of those that its approach touches.
 fn blockers(
     planner: &Planner,
-    scene: &Scene,
+    scene: &ObstacleMap,
     blocked: &[usize],
     approaches: &[Result<Approach, Refusal>],
 ) -> Vec<Vec<usize>> {
@@ -137,7 +137,7 @@ fn blockers(
 
 fn rank(
     planner: &Planner,
-    scene: &Scene,
+    scene: &ObstacleMap,
     targets: &[Target],
     approaches: &mut [Result<Approach, Refusal>],
     blockers: &[Vec<usize>],
@@ -190,7 +190,7 @@ fn rank(
 /// that slack becomes its clearance.
 fn least_blocked(
     planner: &Planner,
-    scene: &Scene,
+    scene: &ObstacleMap,
     approaches: &mut [Result<Approach, Refusal>],
     blockers: &[Vec<usize>],
     waiting: &[usize],

@@ -1,6 +1,6 @@
 //! The gripper in its own frame, where its distance from a point takes few steps.
 
-use crate::body::Body;
+use crate::swept_volume::SweptVolume;
 use nalgebra::{Isometry3, Matrix3, Point3, Vector3};
 
 /// A part: the points within `radius` of a rectangle in the plane z = 0, and of its mirror image in y.
@@ -22,7 +22,7 @@ pub(crate) struct Outline([Part; 3]);
 
 impl Outline {
     /// That of finger, its mirror image, palm and wrist.
-    pub(crate) fn of([finger, _, palm, wrist]: &[Body; 4]) -> Self {
+    pub(crate) fn of([finger, _, palm, wrist]: &[SweptVolume; 4]) -> Self {
         Self([finger, palm, wrist].map(|body| {
             let range = |axis: usize| {
                 let corners = body.corners().map(|corner| corner[axis]);
@@ -40,14 +40,14 @@ impl Outline {
 
 /// An outline at a pose.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Placed {
+pub(crate) struct PlacedOutline {
     outline: Outline,
     /// Rows: the tool's axes in the base.
     rotation: Matrix3<f64>,
     origin: Point3<f64>,
 }
 
-impl Placed {
+impl PlacedOutline {
     pub(crate) fn new(outline: &Outline, pose: &Isometry3<f64>) -> Self {
         Self {
             outline: *outline,
@@ -93,7 +93,7 @@ mod tests {
             for bodies in [gripper.open(), gripper.swept(length, radius)] {
                 let moved = bodies.map(|body| body.moved(&pose));
                 let least = moved.iter().map(|b| b.distance_to_point(&point)).fold(f64::INFINITY, f64::min);
-                let found = Placed::new(&Outline::of(&bodies), &pose).distance(&point);
+                let found = PlacedOutline::new(&Outline::of(&bodies), &pose).distance(&point);
                 prop_assert!((found - least).abs() < 1e-12, "{found} {least}");
             }
         }

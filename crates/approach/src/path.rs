@@ -44,7 +44,7 @@ impl Sample {
     }
 }
 
-/// The way of a tool from its start to the pre-grasp, to the apple and back.
+/// The motion of a tool from its start to the pre-grasp, to the apple and back.
 ///
 /// Place, velocity and acceleration are continuous. The orientation turns about one axis during the
 /// transit, by a quintic of time from rest to rest, and is fixed from the pre-grasp on.
@@ -80,12 +80,12 @@ fn rest_to_rest_s(length: f64, speed: f64, acceleration: f64) -> f64 {
 impl Path {
     /// The path through these places within the limits of `motion`; `None` where a number is not
     /// finite.
-    pub(crate) fn through(way: &Waypoints, motion: &MotionConfig) -> Option<Self> {
-        let turn = (way.start.rotation.inverse() * way.rotation).scaled_axis();
-        let mut places = vec![Point3::from(way.start.translation.vector)];
-        places.extend_from_slice(&way.via);
-        places.push(way.pre_grasp);
-        let straight = way.grasp - way.pre_grasp;
+    pub(crate) fn through(waypoints: &Waypoints, motion: &MotionConfig) -> Option<Self> {
+        let turn = (waypoints.start.rotation.inverse() * waypoints.rotation).scaled_axis();
+        let mut places = vec![Point3::from(waypoints.start.translation.vector)];
+        places.extend_from_slice(&waypoints.via);
+        places.push(waypoints.pre_grasp);
+        let straight = waypoints.grasp - waypoints.pre_grasp;
         let (legs, entry) = transit(&places, straight, turn.norm(), motion)?;
 
         let mut pieces = Vec::with_capacity(legs.len() + 2);
@@ -103,7 +103,7 @@ impl Path {
         for leg in legs {
             pre_grasp_s = push(Stage::Transit, leg);
         }
-        let arrival = State::at_rest(way.grasp.coords);
+        let arrival = State::at_rest(waypoints.grasp.coords);
         // From an entry speed v to rest over L in 2 L / v: the speed falls all the way and never
         // turns back, v (1 − 3τ² + 2τ³).
         let length = straight.norm();
@@ -121,18 +121,18 @@ impl Path {
             Stage::Approach,
             Quintic::between(&entry, &arrival, duration)?,
         );
-        let back = (way.retreat - way.grasp).norm();
+        let back = (waypoints.retreat - waypoints.grasp).norm();
         let duration = rest_to_rest_s(
             back,
             PEAK_SPEED * motion.retreat_speed_m_per_s,
             motion.acceleration_max_m_per_s2,
         );
-        let end = State::at_rest(way.retreat.coords);
+        let end = State::at_rest(waypoints.retreat.coords);
         push(Stage::Retreat, Quintic::between(&arrival, &end, duration)?);
         let (none, all) = (Vector1::new(0.0), Vector1::new(1.0));
         Some(Self {
             pieces,
-            start_rotation: way.start.rotation,
+            start_rotation: waypoints.start.rotation,
             turn,
             share: Quintic::between(&State::at_rest(none), &State::at_rest(all), pre_grasp_s)?,
             pre_grasp_s,

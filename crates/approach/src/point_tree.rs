@@ -256,7 +256,7 @@ pub(crate) fn cells<'a>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::body::Body;
+    use crate::swept_volume::SweptVolume;
     use proptest::prelude::*;
 
     fn points(n: usize) -> impl Strategy<Value = Vec<Point3<f64>>> {
@@ -269,7 +269,7 @@ mod tests {
     proptest! {
         #[test]
         fn the_nearest_ball_is_found(points in points(300), a in prop::array::uniform3(-0.5..0.5f64), bound in 0.0..0.5f64) {
-            let body = Body::capsule(a.into(), Point3::new(0.1, 0.2, 0.3), 0.02);
+            let body = SweptVolume::capsule(a.into(), Point3::new(0.1, 0.2, 0.3), 0.02);
             let balls = cells(&points, 0.03, 1);
             let least = balls.iter().map(|b| body.distance_to_point(&b.center) - b.radius).fold(f64::INFINITY, f64::min);
             let found = PointTree::of_balls(balls).nearest(|p| body.distance_to_point(p), bound, f64::NEG_INFINITY);
@@ -279,7 +279,7 @@ mod tests {
         #[test]
         fn distances_are_lower_bounds(points in points(200), a in prop::array::uniform3(-0.5..0.5f64)) {
             prop_assume!(!points.is_empty());
-            let body = Body::capsule(a.into(), Point3::new(0.1, 0.2, 0.3), 0.02);
+            let body = SweptVolume::capsule(a.into(), Point3::new(0.1, 0.2, 0.3), 0.02);
             let least = points.iter().map(|p| body.distance_to_point(p)).fold(f64::INFINITY, f64::min);
             let (d, _) = PointTree::of_points(&points, 0.02, 1).nearest(|p| body.distance_to_point(p), 10.0, f64::NEG_INFINITY).unwrap();
             prop_assert!(d <= least + 1e-12 && d >= least - 0.02 * 3.0_f64.sqrt(), "{d} {least}");

@@ -1,6 +1,6 @@
 use thiserror::Error;
 
-/// Why samples give no calibration.
+/// Why samples do not give a calibration.
 ///
 /// Every message says what is wrong and what to do about it.
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -33,7 +33,7 @@ pub enum CalibrateError {
         needed: usize,
     },
     /// Two samples have one id.
-    #[error("the id `{id}` stands twice; give each sample an id of its own")]
+    #[error("the id `{id}` is given twice; give each sample an id of its own")]
     SameId {
         /// The id.
         id: String,
@@ -114,7 +114,7 @@ pub enum CalibrateError {
         /// The tolerance, with units.
         tolerance: String,
     },
-    /// The equations leave something open for another reason.
+    /// The equations are underdetermined for another reason.
     #[error(
         "the samples do not determine the answer; take more of them, with rotations of 30 degrees and more about axes that differ"
     )]

@@ -13,8 +13,8 @@ impl SampleSet {
     ///
     /// # Errors
     ///
-    /// [`FileError::Read`]; [`FileError::Malformed`] for what is not of the form above, with the line, or the sample and
-    /// the field.
+    /// [`FileError::Read`]; [`FileError::Malformed`] for what is not of the form above, with the line, or the sample
+    /// and the field.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, FileError> {
         let path = path.as_ref();
         let bytes = pomona_files::read(path)?;

@@ -1,4 +1,4 @@
-//! Where a camera is: its transform to a robot, from samples with mistakes among them, and how sure it is.
+//! Hand–eye calibration: the transform from a camera to a robot, from samples with outliers, with its uncertainty.
 //!
 //! ```
 //! use nalgebra::Point3;
@@ -30,17 +30,17 @@
 //!   the flange: [`calibrate_eye_to_hand`], [`calibrate_robot_world`]. The camera is on the flange and the
 //!   target stands still: [`calibrate_eye_in_hand`].
 //! - A [`SampleSet`] is a file of samples, JSON or CSV, keyed by id.
-//! - The answer is an [`UncertainTransform`](pomona_transforms::UncertainTransform) with a 6×6 covariance, and a [`Quality`]: residual and
-//!   weight of every sample, rejected ones with the reason, and the error at the fruit's distance
-//!   by leaving out one sample each.
-//! - A [`CalibrateError`] refuses samples that do not determine the answer, and names what is likely wrong.
+//! - The answer is an [`UncertainTransform`](pomona_transforms::UncertainTransform) with a 6×6 covariance, and a
+//!   [`Quality`]: residual and weight of every sample, rejected ones with the reason, and the leave-one-out error at
+//!   the fruit's distance.
+//! - A [`CalibrateError`] refuses samples that do not determine the answer, and names the likely cause.
 //!
 //! # How
 //!
 //! Minimal solvers propose models from three samples each within `pomona-ransac`; the consensus of more than
 //! half is refined jointly, for pose pairs over both unknown transforms on SE(3), with the loss of a Student t,
 //! whose scales (rotation and translation each) are estimated with it. The derivation of the joint
-//! refinement stands in `docs/calibration.md`, with figures beside those of OpenCV.
+//! refinement is in `docs/calibration.md`, with a comparison with OpenCV.
 //!
 //! # Not here
 //!
@@ -48,7 +48,7 @@
 //!
 //! # References
 //!
-//! Each method's source stands at its function: Kabsch 1976, Umeyama 1991, Park and Martin 1994, Daniilidis 1999,
+//! Each method's source is cited at its function: Kabsch 1976, Umeyama 1991, Park and Martin 1994, Daniilidis 1999,
 //! Shah 2013, Lange, Little and Taylor 1989.
 
 mod error;

@@ -15,7 +15,7 @@ use rand_core::Rng;
 use refine::{Fit, left_out, refine};
 use search::{LEAST_POINTS, needed, search};
 
-/// Fewer samples than this are no safeguard against a wrong one.
+/// With fewer samples than this, a wrong one may go unnoticed.
 const SAFE_POINTS: usize = 6;
 
 /// Where a camera is that stands still, from places that it saw and the robot touched.
@@ -24,7 +24,7 @@ const SAFE_POINTS: usize = 6;
 pub struct PointCalibration {
     /// The answer, `robot_from_camera`, with its covariance.
     pub camera: UncertainTransform<RobotFrame, CameraFrame>,
-    /// Distances in the robot's frame over those in the camera's, of the samples that are believed: 1 but for errors.
+    /// Distances in the robot's frame over those in the camera's, of the inlier samples: 1 but for errors.
     pub scale: f64,
     /// Residuals, rejections and leave-one-out errors.
     pub quality: Quality,
@@ -93,7 +93,7 @@ struct ScaleFound {
     sigma: f64,
 }
 
-/// The scale of the samples that are believed; refused where it is far from 1 and the samples know it.
+/// The scale of the inlier samples; refused where it differs significantly from 1.
 fn scale(pairs: &PointPairs, fit: &Fit, kept: &[usize]) -> Result<ScaleFound, CalibrateError> {
     let free = PointPairs {
         free_scale: true,

@@ -24,7 +24,7 @@ use rand_core::Rng;
 use refine::{Fit, LEAST_POSES};
 use system::{HandEyeModel, Pair, Scale};
 
-/// Fewer samples than this are no safeguard against a wrong one.
+/// With fewer samples than this, a wrong one may go unnoticed.
 const SAFE_POSES: usize = 8;
 
 /// Where the camera is, from poses of a target; with `Carrier` what the camera is fixed to and `Other`
@@ -36,9 +36,9 @@ pub struct PoseCalibration<Carrier: FrameTag, Other: FrameTag> {
     pub camera: UncertainTransform<Carrier, CameraFrame>,
     /// What was found beside it, `other_from_target`, with its covariance.
     pub target: UncertainTransform<Other, TargetFrame>,
-    /// What began the winning fit.
+    /// The minimal solver whose model was refined.
     pub solver: PoseSolver,
-    /// How far the robot turned among the samples that are believed.
+    /// How far the robot turned among the inlier samples.
     pub motions: MotionSpread,
     /// Residuals, rejections and leave-one-out errors.
     pub quality: Quality,

@@ -1,7 +1,7 @@
 use nalgebra::{Isometry3, Matrix3, Vector3};
 use serde::Serialize;
 
-/// How good a calibration is, as far as its own samples tell.
+/// How good a calibration is, judged by its own samples.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Quality {
@@ -18,9 +18,9 @@ pub struct Quality {
     pub sigma_at_fruit_m: f64,
     /// Standard deviation of the rotation due to the calibration, rad: root of the trace.
     pub sigma_rotation_rad: f64,
-    /// What happens without one of the samples.
+    /// Leave-one-out errors.
     pub leave_one_out: LeaveOneOut,
-    /// What a person should know, in sentences.
+    /// Warnings for people, in sentences.
     pub warnings: Vec<String>,
 }
 
@@ -48,17 +48,17 @@ pub struct SampleQuality {
     pub left_out: Option<LeftOut>,
 }
 
-/// Why a sample is not believed.
+/// Why a sample is an outlier.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Rejection {
-    /// What is likely the matter.
+    /// The likely cause.
     pub cause: RejectionCause,
     /// The same in a sentence, with numbers.
     pub reason: String,
 }
 
-/// What is likely the matter with a sample.
+/// The likely cause of a large residual.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
@@ -135,7 +135,7 @@ pub(crate) fn spread(covariance: &Matrix3<f64>) -> f64 {
     covariance.trace().max(0.0).sqrt()
 }
 
-/// What is likely the matter with a sample that is this far off.
+/// The likely cause of a residual of this size.
 pub(crate) fn rejection(
     place_m: f64,
     rotation: Option<Vector3<f64>>,

@@ -49,7 +49,7 @@ impl CalibrationKind {
     }
 }
 
-/// A calibration as it is written down: the transform for the robot's programs, and the record for people.
+/// A calibration in the form of its two files: the transform for the robot's programs, and the record for people.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Calibration {
     /// Where the camera is.
@@ -96,7 +96,7 @@ pub struct CalibrationRecord {
     /// Where the target is, for poses.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub target: Option<TransformRecord>,
-    /// What began the winning fit, for poses.
+    /// The minimal solver whose model was refined, for poses.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub solver: Option<PoseSolver>,
     /// How far the robot turned, for poses.

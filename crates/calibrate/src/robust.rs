@@ -1,4 +1,4 @@
-//! Weights that fall with the residual, and what they do to the covariance.
+//! Robust weights, and their effect on the covariance.
 
 /// Degrees of freedom of the noise model: a Student t instead of a Gaussian, whose heavier tails
 /// keep a sample that is somewhat off from pulling the answer.
@@ -23,8 +23,8 @@ pub(crate) struct StudentT<const D: usize>;
 
 impl<const D: usize> StudentT<D> {
     /// The squared scale of the Student t that fits Gaussian noise of variance 1 best: the c for which
-    /// `E[w s²] = D c` over χ² with `D` degrees of freedom, found by quadrature. With it, residuals here are in standard
-    /// deviations of Gaussian noise.
+    /// `E[w s²] = D c` over χ² with `D` degrees of freedom, found by quadrature. With it, residuals here are in
+    /// standard deviations of Gaussian noise.
     const SQUARED_SCALE: f64 = if D == 3 { 0.8618 } else { 0.8842 };
 
     /// Weight of a sample whose squared residual is `squared`.
@@ -44,7 +44,7 @@ impl<const D: usize> StudentT<D> {
         weighted_squares / (components * (n - used).max(1.0) * Self::SQUARED_SCALE)
     }
 
-    /// The squared residual beyond which a sample is no longer believed.
+    /// The squared residual beyond which a sample is an outlier.
     pub(crate) fn gate() -> f64 {
         if D == 3 { GATE_3 } else { GATE_6 }
     }
@@ -67,14 +67,4 @@ impl<const D: usize> StudentT<D> {
         let (spread, curvature) = (spread / (d * (n - used).max(1.0)), curvature / n);
         spread / (curvature * curvature)
     }
-}
-
-/// Median of numbers; NaN where there are none.
-pub(crate) fn median(mut numbers: Vec<f64>) -> f64 {
-    if numbers.is_empty() {
-        return f64::NAN;
-    }
-    numbers.sort_by(f64::total_cmp);
-    let n = numbers.len();
-    f64::midpoint(numbers[(n - 1) / 2], numbers[n / 2])
 }

@@ -19,7 +19,7 @@ pub struct Frame {
     pub color: ColorImage,
     /// Depth image, of the same size.
     pub depth: DepthImage,
-    /// Boxes of apples; `None` where nobody looked for apples.
+    /// Boxes of apples; `None` where no detector or person has marked any.
     pub boxes: Option<Vec<PixelBox>>,
 }
 

@@ -1,4 +1,4 @@
-//! RGB-D frames and point clouds: what a depth camera delivers, and the files it comes in.
+//! RGB-D frames and point clouds, and the files in which they are stored.
 //!
 //! ```
 //! use pomona_cloud::{
@@ -69,11 +69,11 @@
 //! the top-left pixel.
 //!
 //! Points are kept as separate f32 arrays. [`DepthPoints`] are those of a [`PixelWindow`], each with its
-//! pixel, made to be filled again and again; a [`PointCloud`] is what files hold, in one of
+//! pixel, with buffers that are reused; a [`PointCloud`] is what files hold, in one of
 //! the [`CloudFormat`]s. An organised cloud has a point for every pixel, NaN where there is
 //! no reading.
 //!
-//! Files are not trusted: a size that a header claims is compared with the size of the file
+//! Files are untrusted input: a size that a header claims is compared with the size of the file
 //! before memory is taken, whatever is wrong is an error that names the file, the
 //! place and the remedy ([`CloudError`]), and a file or a new frame folder is written whole or not at all.
 //!

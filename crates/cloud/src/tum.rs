@@ -26,7 +26,8 @@ pub struct TumEntry {
 ///
 /// # Errors
 ///
-/// [`CloudError::File`] where `rgb.txt` or `depth.txt` is missing, and for a line in them that is not a time and a file.
+/// [`CloudError::File`] where `rgb.txt` or `depth.txt` is missing, and for a line in them that is not a time and a
+/// file.
 pub fn read_tum(dir: impl AsRef<Path>) -> Result<Vec<TumEntry>, CloudError> {
     let dir = dir.as_ref();
     let depths = list(&dir.join("depth.txt"))?;

@@ -26,7 +26,8 @@ use serde::{Deserialize, Serialize};
 /// Name and version of the form of [`PicksRecord`].
 pub const SCHEMA: &str = "pomona.picks/1";
 
-/// What `picks.json` holds: the answer for each box of one frame. Metres and radians.
+/// What `picks.json` holds: the answer for each box of one frame. Lengths in metres, angles in radians; positions and
+/// directions in the camera's REP-103 optical frame (x right, y down, z forward). What is not known is absent.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[cfg_attr(test, schemars(deny_unknown_fields))]

@@ -9,7 +9,7 @@ use crate::frame::CheckedFrame;
 use crate::outcome::{ApplePlan, FrameAnswer, PlannedApproach, RobotFromCamera};
 use nalgebra::{Isometry3, Point3, Quaternion, Translation3, UnitQuaternion};
 use pomona_approach::{
-    Approach, ApproachConfig, ConfigError, Planner, Refusal, Scene, StartPose, pick_order,
+    Approach, ApproachConfig, ConfigError, ObstacleMap, Planner, Refusal, StartPose, pick_order,
 };
 use task::Task;
 
@@ -60,7 +60,7 @@ impl Robot {
             task.add_apple(apple, robot_from_camera, self.config());
         }
         let clearance = &self.config().clearance;
-        let scene = Scene::new(task.apples, task.branches, &cloud, clearance);
+        let scene = ObstacleMap::new(task.apples, task.branches, &cloud, clearance);
         let start = self.start(&to_robot);
         let order = pick_order(&self.planner, &scene, &task.targets, &start);
         let plan = RobotPlan {

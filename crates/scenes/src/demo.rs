@@ -29,7 +29,7 @@ pub(crate) fn world() -> World {
         tree.dress(branch, 0.08..1.0, 0.05, 4);
     }
     tree.dress(leader, 0.2..0.95, 0.10, 4);
-    for (branch, at, way) in [
+    for (branch, at, heading) in [
         (0, 0.97, Vector3::new(0.7, -0.6, 0.1)),
         (1, 0.98, Vector3::new(0.8, -0.7, 0.2)),
         (1, 0.55, Vector3::new(0.1, -1.0, 0.3)),
@@ -38,7 +38,7 @@ pub(crate) fn world() -> World {
     ] {
         let from = tree.world.branches()[laterals[branch]].curve.point(at);
         let length = tree.between(0.13..0.2);
-        tree.shoot(from, way, length);
+        tree.shoot(from, heading, length);
     }
     let pose = Isometry3::from_parts(
         Translation3::new(0.0, 0.0, DISTANCE_M),

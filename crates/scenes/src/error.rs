@@ -1,5 +1,6 @@
 use pomona_cloud::CloudError;
-use std::path::{Path, PathBuf};
+use pomona_files::FileError;
+use std::path::PathBuf;
 use thiserror::Error;
 
 /// Why a scene could not be named, written or read.
@@ -16,20 +17,16 @@ pub enum SceneError {
     },
     /// The folder is there and holds what is not a scene of ours.
     #[error(
-        "{path}: is no file of a scene and would be lost; name a new folder, an empty one, or one that holds a scene alone"
+        "{path}: is no file of a scene and would be lost; name a new folder, an empty one, or one that holds a scene \
+         alone"
     )]
     Occupied {
         /// The file or folder in the way.
         path: PathBuf,
     },
-    /// The system refused a file.
-    #[error("{path}: {source}")]
-    Io {
-        /// The file or folder.
-        path: PathBuf,
-        /// What the system said.
-        source: std::io::Error,
-    },
+    /// A file or a folder could not be read or written.
+    #[error(transparent)]
+    File(#[from] FileError),
     /// The frame's own files could not be written.
     #[error(transparent)]
     Frame(#[from] CloudError),
@@ -41,13 +38,4 @@ pub enum SceneError {
         /// What is wrong with it.
         reason: String,
     },
-}
-
-impl SceneError {
-    pub(crate) fn io(path: &Path, source: std::io::Error) -> Self {
-        Self::Io {
-            path: path.into(),
-            source,
-        }
-    }
 }

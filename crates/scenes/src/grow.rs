@@ -109,19 +109,24 @@ impl Grower {
     pub(crate) fn rosette(&mut self, at: Point3<f64>, outward: Vector3<f64>, count: usize) {
         for _ in 0..count {
             let spread = self.isotropic() * 0.7;
-            let way = (outward.normalize() + spread).normalize();
+            let heading = (outward.normalize() + spread).normalize();
             let stalk_length = self.between(0.012..0.03);
-            self.leaf_on_stalk(at, way, stalk_length);
+            self.leaf_on_stalk(at, heading, stalk_length);
         }
     }
 
     /// A leaf on a green stalk of its own; none where it would pierce an apple each time it is tried.
-    pub(crate) fn leaf_on_stalk(&mut self, at: Point3<f64>, way: Vector3<f64>, stalk_length: f64) {
+    pub(crate) fn leaf_on_stalk(
+        &mut self,
+        at: Point3<f64>,
+        heading: Vector3<f64>,
+        stalk_length: f64,
+    ) {
         for attempt in 0..4 {
-            let way = way + self.isotropic() * (0.25 * f64::from(attempt));
-            let base = at + way.normalize() * stalk_length;
+            let heading = heading + self.isotropic() * (0.25 * f64::from(attempt));
+            let base = at + heading.normalize() * stalk_length;
             let length = self.between(0.05..0.085);
-            let Some(leaf) = self.draw_leaf(base, way, length) else {
+            let Some(leaf) = self.draw_leaf(base, heading, length) else {
                 continue;
             };
             if self.world.apples.iter().any(|apple| pierces(&leaf, apple)) {
@@ -140,12 +145,12 @@ impl Grower {
     }
 
     /// A leaf from `base`, hanging a little, its upper side towards sky and sun.
-    fn draw_leaf(&mut self, base: Point3<f64>, way: Vector3<f64>, length: f64) -> Option<Leaf> {
+    fn draw_leaf(&mut self, base: Point3<f64>, heading: Vector3<f64>, length: f64) -> Option<Leaf> {
         let hang = Vector3::y() * self.between(0.1..0.5);
         let sun = self.world.light.toward_sun.into_inner();
         let up = -Vector3::y() * 0.9 + sun * 0.5 + self.isotropic() * 0.45;
         let width = length * self.between(0.48..0.62);
-        let leaf = Leaf::new(base, way + hang, up, length, width)?;
+        let leaf = Leaf::new(base, heading + hang, up, length, width)?;
         let bend = self.between(-0.40..-0.05);
         let cup = self.between(0.1..0.7);
         let tint = self.between(0.1..0.9);
@@ -158,10 +163,10 @@ impl Grower {
     }
 
     /// A thin shoot with leaves on alternating sides.
-    pub(crate) fn shoot(&mut self, from: Point3<f64>, way: Vector3<f64>, length: f64) {
-        let way = way.normalize();
-        let end = from + way * length + self.isotropic() * (0.08 * length);
-        let curve = Curve::bow(from, way + self.isotropic() * 0.15, end);
+    pub(crate) fn shoot(&mut self, from: Point3<f64>, heading: Vector3<f64>, length: f64) {
+        let heading = heading.normalize();
+        let end = from + heading * length + self.isotropic() * (0.08 * length);
+        let curve = Curve::bow(from, heading + self.isotropic() * 0.15, end);
         self.world.add_twig(
             &Branch {
                 curve,

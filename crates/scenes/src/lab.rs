@@ -7,7 +7,7 @@ use pomona_geometry::Plane;
 
 /// An axis of the camera about which the lab's body is turned.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Axis {
+pub enum CameraAxis {
     /// To the right.
     X,
     /// Down.
@@ -20,7 +20,7 @@ pub enum Axis {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Orientation {
     /// The axis.
-    pub axis: Axis,
+    pub axis: CameraAxis,
     /// Angle in degrees, with the sign of the paper's tables.
     pub degrees: i32,
 }
@@ -28,10 +28,10 @@ pub struct Orientation {
 impl Orientation {
     /// The rows of Tables 1, 2 and 3 (Gao et al. 2022), in their order.
     pub const PAPER: [Self; 15] = {
-        const fn row(axis: Axis, degrees: i32) -> Orientation {
+        const fn row(axis: CameraAxis, degrees: i32) -> Orientation {
             Orientation { axis, degrees }
         }
-        use Axis::{X, Y, Z};
+        use CameraAxis::{X, Y, Z};
         [
             row(X, -90),
             row(X, -45),
@@ -54,9 +54,9 @@ impl Orientation {
     /// Name such as `x-90`, `y0`, `z45`.
     pub fn name(&self) -> String {
         let axis = match self.axis {
-            Axis::X => 'x',
-            Axis::Y => 'y',
-            Axis::Z => 'z',
+            CameraAxis::X => 'x',
+            CameraAxis::Y => 'y',
+            CameraAxis::Z => 'z',
         };
         format!("{axis}{}", self.degrees)
     }
@@ -68,9 +68,9 @@ impl Orientation {
     pub fn rotation(&self) -> Rotation3<f64> {
         let angle = f64::from(self.degrees).to_radians();
         match self.axis {
-            Axis::X => Rotation3::from_axis_angle(&Vector3::x_axis(), angle),
-            Axis::Y => Rotation3::from_axis_angle(&Vector3::y_axis(), angle),
-            Axis::Z => Rotation3::from_axis_angle(&Vector3::z_axis(), -angle),
+            CameraAxis::X => Rotation3::from_axis_angle(&Vector3::x_axis(), angle),
+            CameraAxis::Y => Rotation3::from_axis_angle(&Vector3::y_axis(), angle),
+            CameraAxis::Z => Rotation3::from_axis_angle(&Vector3::z_axis(), -angle),
         }
     }
 }

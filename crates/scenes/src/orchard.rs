@@ -261,8 +261,8 @@ impl Layout {
             let at = 0.5 + self.tree.between(-1.0..1.0) * 4.0 * target_radius / length;
             let root = bearing.curve.point(at.clamp(0.0, 1.0));
             let tangent = bearing.curve.derivative(at.clamp(0.0, 1.0)).normalize();
-            let way = across(&self.tree.isotropic(), &tangent);
-            let tip = root + way * (bearing.radius_at(0.5) + self.tree.between(0.01..0.04));
+            let heading = across(&self.tree.isotropic(), &tangent);
+            let tip = root + heading * (bearing.radius_at(0.5) + self.tree.between(0.01..0.04));
             let curve = Curve::straight(root, tip);
             if self.clearance(&curve) > 0.004 {
                 let spur = Branch {
@@ -292,9 +292,9 @@ impl Layout {
             } else {
                 0.0
             };
-            let way = self.tree.isotropic() - Vector3::z() * forward;
+            let heading = self.tree.isotropic() - Vector3::z() * forward;
             let stalk = self.tree.between(0.012..0.03);
-            self.tree.leaf_on_stalk(site, way.normalize(), stalk);
+            self.tree.leaf_on_stalk(site, heading.normalize(), stalk);
         }
     }
 
@@ -313,9 +313,9 @@ impl Layout {
             };
             self.tree.world.add_twig(&shoot, Bark::Wood);
         }
-        let way = Vector3::new(-aside.x, 0.5 * target.radius - aside.y, 0.3 * aside.z);
+        let heading = Vector3::new(-aside.x, 0.5 * target.radius - aside.y, 0.3 * aside.z);
         let stalk = self.tree.between(0.005..0.012);
-        self.tree.leaf_on_stalk(tip, way.normalize(), stalk);
+        self.tree.leaf_on_stalk(tip, heading.normalize(), stalk);
     }
 }
 

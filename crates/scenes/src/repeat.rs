@@ -167,8 +167,8 @@ impl Repeat {
         // Around the stalk by the golden angle, the first one towards the camera's right.
         let leaves = (0..self.leaves).filter_map(|i| {
             let turn = 2.4 * i as f64 + 0.6;
-            let way = Vector3::new(turn.cos(), -0.25, -turn.sin().abs() * 0.8);
-            let base = middle + way.normalize() * tree.between(0.010..0.020);
+            let heading = Vector3::new(turn.cos(), -0.25, -turn.sin().abs() * 0.8);
+            let base = middle + heading.normalize() * tree.between(0.010..0.020);
             let curve = Curve::straight(middle, base);
             let stalk = Branch {
                 curve,
@@ -179,7 +179,7 @@ impl Repeat {
             let length = tree.between(0.055..0.075);
             let hang = Vector3::y() * tree.between(0.2..0.6);
             let up = Vector3::new(0.0, -0.8, -0.6) + tree.isotropic() * 0.3;
-            let leaf = Leaf::new(base, way + hang, up, length, length * 0.55)?;
+            let leaf = Leaf::new(base, heading + hang, up, length, length * 0.55)?;
             Some(Leaf {
                 bend: -0.2,
                 tint: tree.rng.random(),

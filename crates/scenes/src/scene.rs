@@ -1,6 +1,7 @@
 use crate::error::SceneError;
 use crate::truth::{TRUTH_FILE, Truth};
 use pomona_cloud::Frame;
+use pomona_files::{FileError, temporary_beside};
 use std::path::{Path, PathBuf};
 
 /// A frame and what is true of it.
@@ -20,13 +21,14 @@ impl Scene {
     ///
     /// # Errors
     ///
-    /// [`SceneError::Occupied`] where the folder holds files that no scene has, [`SceneError::Io`] and [`SceneError::Frame`] where a file cannot be written.
+    /// [`SceneError::Occupied`] where the folder holds files that no scene has, [`SceneError::File`] and
+    /// [`SceneError::Frame`] where a file cannot be written.
     pub fn write(&self, folder: impl AsRef<Path>) -> Result<(), SceneError> {
         let folder = folder.as_ref();
         if let Some(path) = foreign_entry(folder)? {
             return Err(SceneError::Occupied { path });
         }
-        let part = beside(folder);
+        let part = temporary_beside(folder);
         let result = self
             .write_parts(&part)
             .and_then(|()| replace(folder, &part));
@@ -38,7 +40,7 @@ impl Scene {
     }
 
     fn write_parts(&self, folder: &Path) -> Result<(), SceneError> {
-        std::fs::create_dir_all(folder).map_err(|e| SceneError::io(folder, e))?;
+        std::fs::create_dir_all(folder).map_err(|e| FileError::write(folder, e))?;
         self.frame.write(folder)?;
         self.truth.write(folder.join(TRUTH_FILE))
     }
@@ -58,11 +60,11 @@ fn foreign_entry(folder: &Path) -> Result<Option<PathBuf>, SceneError> {
     let entries = match std::fs::read_dir(folder) {
         Ok(entries) => entries,
         Err(e) if e.kind() == std::io::ErrorKind::NotFound => return Ok(None),
-        Err(e) => return Err(SceneError::io(folder, e)),
+        Err(e) => return Err(FileError::read(folder, e).into()),
     };
     let is_scene = folder.join(TRUTH_FILE).is_file();
     for entry in entries {
-        let entry = entry.map_err(|e| SceneError::io(folder, e))?;
+        let entry = entry.map_err(|e| FileError::read(folder, e))?;
         let ours = is_scene
             && entry
                 .file_name()
@@ -75,17 +77,10 @@ fn foreign_entry(folder: &Path) -> Result<Option<PathBuf>, SceneError> {
     Ok(None)
 }
 
-/// A hidden sibling: on the same file system, so that it can be renamed.
-fn beside(folder: &Path) -> PathBuf {
-    let name = folder
-        .file_name()
-        .map_or_else(|| "scene".into(), |n| n.to_string_lossy());
-    folder.with_file_name(format!(".{name}.part-{}", std::process::id()))
-}
-
 fn replace(folder: &Path, part: &Path) -> Result<(), SceneError> {
     if folder.exists() {
-        std::fs::remove_dir_all(folder).map_err(|e| SceneError::io(folder, e))?;
+        std::fs::remove_dir_all(folder).map_err(|e| FileError::write(folder, e))?;
     }
-    std::fs::rename(part, folder).map_err(|e| SceneError::io(folder, e))
+    std::fs::rename(part, folder).map_err(|e| FileError::write(folder, e))?;
+    Ok(())
 }

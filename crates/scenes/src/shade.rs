@@ -1,8 +1,9 @@
 use crate::apple::Variety;
-use crate::light::{Light, ShadowGrid};
+use crate::light::Light;
 use crate::random::value_noise;
 use crate::ray::{Ray, Surface};
 use crate::raycast::{NOTHING, Raycast};
+use crate::shadow::ShadowGrid;
 use crate::world::{Bark, Part, Shape, World};
 use nalgebra::{Point3, Vector3};
 use pomona_cloud::{Camera, ColorImage};

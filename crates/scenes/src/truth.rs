@@ -1,5 +1,6 @@
 use crate::error::SceneError;
 use pomona_cloud::{Camera, PixelBox};
+use pomona_files::write_atomically;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
@@ -93,19 +94,19 @@ impl Truth {
     ///
     /// # Errors
     ///
-    /// [`SceneError::Io`] where it cannot be read, [`SceneError::Truth`] where
+    /// [`SceneError::File`] where it cannot be read, [`SceneError::Truth`] where
     /// it is not a truth of the known schema.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, SceneError> {
         let mut path = path.as_ref().to_path_buf();
         if path.is_dir() {
             path.push(TRUTH_FILE);
         }
-        let text = std::fs::read_to_string(&path).map_err(|e| SceneError::io(&path, e))?;
+        let bytes = pomona_files::read(&path)?;
         let refused = |reason: String| SceneError::Truth {
             path: path.clone(),
             reason,
         };
-        let truth: Self = serde_json::from_str(&text).map_err(|e| refused(e.to_string()))?;
+        let truth: Self = serde_json::from_slice(&bytes).map_err(|e| refused(e.to_string()))?;
         if truth.schema != TRUTH_SCHEMA {
             let reason = format!("its schema is `{}`, not `{TRUTH_SCHEMA}`", truth.schema);
             return Err(refused(reason));
@@ -117,7 +118,7 @@ impl Truth {
     ///
     /// # Errors
     ///
-    /// [`SceneError::Io`] where the file cannot be written.
+    /// [`SceneError::File`] where the file cannot be written.
     pub fn write(&self, path: impl AsRef<Path>) -> Result<(), SceneError> {
         let path = path.as_ref();
         let mut text = serde_json::to_string_pretty(self).map_err(|e| SceneError::Truth {
@@ -125,7 +126,7 @@ impl Truth {
             reason: e.to_string(),
         })?;
         text.push('\n');
-        std::fs::write(path, text).map_err(|e| SceneError::io(path, e))
+        Ok(write_atomically(path, text.as_bytes())?)
     }
 }
 

@@ -3,7 +3,7 @@ use pomona_files::FileError;
 use std::path::PathBuf;
 use thiserror::Error;
 
-/// Why numbers are no rigid transform.
+/// Why numbers are not a rigid transform.
 ///
 /// Every message names the field, what is wrong with it, and what to do about it.
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -27,7 +27,7 @@ pub enum TransformError {
         /// Its norm.
         norm: f64,
     },
-    /// A matrix whose upper left 3×3 part is no rotation within 1e-3.
+    /// A matrix whose upper left 3×3 part is not a rotation within 1e-3.
     #[error(
         "`{field}` is {deviation:.2e} away from a rotation in its upper left 3x3 part (at most 1e-3); copy all digits, and leave scaling out"
     )]
@@ -37,7 +37,7 @@ pub enum TransformError {
         /// Distance to the nearest orthonormal matrix in the spectral norm, or less.
         deviation: f64,
     },
-    /// A matrix that mirrors.
+    /// A matrix that contains a reflection.
     #[error(
         "`{field}` mirrors: its upper left 3x3 part has determinant -1, a rotation's is +1; negate the axis that belongs to a left-handed frame"
     )]
@@ -57,7 +57,7 @@ pub enum TransformError {
     },
 }
 
-/// Why numbers are no covariance of a transform.
+/// Why numbers are not the covariance of a transform.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum CovarianceError {
@@ -93,7 +93,7 @@ pub enum TransformFileError {
     /// The operating system refused to read or write the file, for example because there is none.
     #[error(transparent)]
     File(#[from] FileError),
-    /// What the file holds, or was to hold, is no transform.
+    /// What the file holds, or was to hold, is not a transform.
     #[error("{}: {source}", .path.display())]
     Content {
         /// The file.
@@ -103,7 +103,7 @@ pub enum TransformFileError {
     },
 }
 
-/// Why the content of a transform's file is no transform.
+/// Why the content of a transform's file is not a transform.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum TransformContentError {
@@ -160,10 +160,10 @@ pub enum TransformContentError {
         /// Its length, taken as metres.
         length_m: f64,
     },
-    /// The numbers are no covariance.
+    /// The numbers are not a covariance.
     #[error(transparent)]
     Covariance(#[from] CovarianceError),
-    /// The numbers are no rigid transform.
+    /// The numbers are not a rigid transform.
     #[error(transparent)]
     Numbers(#[from] TransformError),
 }

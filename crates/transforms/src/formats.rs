@@ -1,7 +1,7 @@
-//! Transforms in the forms of other programs.
+//! Transforms in the formats of other programs.
 //!
-//! Each form tells which way round its quaternion is and in which order its angles are, here by its
-//! fields' names; lengths are metres, angles radians in all of them.
+//! The names of the fields state the order of the quaternion and of the angles; lengths are metres and angles radians
+//! in all of them.
 
 mod checked;
 mod easy_handeye;

@@ -197,7 +197,7 @@ fn json_error(error: &serde_json::Error, bytes: &[u8]) -> TransformContentError 
     let place = format!(" at line {line} column {column}");
     let problem = problem.strip_suffix(&place).unwrap_or(&problem).to_owned();
     let (problem, remedy) = match non_finite_word(bytes, line, column) {
-        Some(word) => (format!("{word} is no number of JSON"), FINITE_REMEDY),
+        Some(word) => (format!("{word} is not a JSON number"), FINITE_REMEDY),
         None => (problem, REMEDY),
     };
     TransformContentError::Json {
@@ -208,7 +208,7 @@ fn json_error(error: &serde_json::Error, bytes: &[u8]) -> TransformContentError 
     }
 }
 
-/// The word at which many programs' JSON is none: they print what is not finite as it is.
+/// The non-finite number at which the text stops being JSON; many programs print `NaN` and `inf` all the same.
 fn non_finite_word(bytes: &[u8], line: usize, column: usize) -> Option<&'static str> {
     let text = bytes.split(|b| *b == b'\n').nth(line.checked_sub(1)?)?;
     // The parser stops at the word's first letter or its second: `nan` begins as `null` does.

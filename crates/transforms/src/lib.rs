@@ -1,5 +1,5 @@
-//! Where things are for the robot: frames as types, rigid transforms between them, and the
-//! orientation of a tool that approaches along a direction.
+//! Coordinate frames as types, rigid transforms between them with their uncertainty, and the orientation of a tool
+//! that approaches along a direction.
 //!
 //! ```
 //! use nalgebra::{Point3, Vector3};
@@ -22,7 +22,7 @@
 //! assert!((center.point() - Point3::new(0.8, 0.0, 0.5)).norm() < 1e-12);
 //! assert!((upwards.vector() - Vector3::z()).norm() < 1e-12);
 //!
-//! // Straight up, the turn about z is anyone's choice, and the answer says so.
+//! // Straight up, the rotation about z is arbitrary, and the answer says so.
 //! let tool = ToolOrientation::along(&upwards);
 //! assert!(tool.singular && tool.euler.rz == 0.0);
 //!
@@ -44,8 +44,8 @@
 //!   what is known in the camera's frame into the robot's. A position takes its rotation and its
 //!   translation, a direction the rotation only. Transforms compose where the inner frames
 //!   agree; anything else does not compile.
-//! - A [`NamedTransform`] adds what the types cannot know, the frame ids of a camera and a robot
-//!   at run time, and is what `robot_from_camera.json` holds.
+//! - A [`NamedTransform`] adds the frame ids that a camera and a robot have at run time, and is what
+//!   `robot_from_camera.json` holds.
 //! - A [`ToolOrientation`] turns a tool that points along +x into a direction, as a quaternion
 //!   and as [`EulerZyx`] angles; along ±z, where one angle has no value of its own, it says so. A
 //!   [`ToolModel`] says which axis of the tool approaches, and where the tool is on the flange.

@@ -100,8 +100,9 @@ impl ToolModel {
         shortest(&self.tool_axis.vector(), &Vector3::x(), &Vector3::z_axis())
     }
 
-    /// The flange's pose where the tool's centre point is at the origin of `approach` and its axis along +x of it; both in the
-    /// robot's frame. The turn about the axis is that of `approach`: for a tool axis in the plane of x and z its y stays y.
+    /// The flange's pose where the tool's centre point is at the origin of `approach` and its axis along +x of it; both
+    /// in the robot's frame. The turn about the axis is that of `approach`: for a tool axis in the plane of x and z its
+    /// y stays y.
     pub fn flange_at(&self, approach: &Isometry3<f64>) -> Isometry3<f64> {
         approach * self.onto_x() * self.tcp_from_flange.isometry()
     }

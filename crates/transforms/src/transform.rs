@@ -176,7 +176,7 @@ impl<To: FrameTag, From: FrameTag> Transform<To, From> {
 impl<F: FrameTag> Transform<F, F> {
     /// The transform of a frame into itself that changes nothing.
     ///
-    /// There is none between two frames: that they coincide is a claim to be made with numbers.
+    /// There is no identity between two different frames: that they coincide must be stated with numbers.
     pub fn identity() -> Self {
         Self::trusted(Isometry3::identity())
     }
@@ -191,7 +191,7 @@ impl<A: FrameTag, B: FrameTag, C: FrameTag> Mul<Transform<B, C>> for Transform<A
     }
 }
 
-// By hand: derived, these would ask the tags for what they have no use for.
+// By hand: derived implementations would require the same traits of the frame tags.
 impl<To: FrameTag, From: FrameTag> Clone for Transform<To, From> {
     fn clone(&self) -> Self {
         *self

@@ -85,11 +85,11 @@ pub struct UncertainDirection<F: FrameTag> {
 }
 
 impl<To: FrameTag, From: FrameTag> UncertainTransform<To, From> {
-    /// A transform with a covariance, in the order and the axes that [`UncertainTransform`] tells.
+    /// A transform with a covariance in the convention of [`UncertainTransform`].
     ///
     /// # Errors
     ///
-    /// [`CovarianceError`] for what is no covariance: not finite, not symmetric, with a negative
+    /// [`CovarianceError`] for a matrix that is not a covariance: not finite, not symmetric, with a negative
     /// variance.
     pub fn new(
         transform: Transform<To, From>,
@@ -102,7 +102,7 @@ impl<To: FrameTag, From: FrameTag> UncertainTransform<To, From> {
         })
     }
 
-    /// A transform taken for exact.
+    /// A transform that is taken as exact.
     pub fn exact(transform: Transform<To, From>) -> Self {
         Self {
             transform,
@@ -187,7 +187,7 @@ impl<A: FrameTag, B: FrameTag, C: FrameTag> Mul<UncertainTransform<B, C>>
     }
 }
 
-/// A position taken for exact.
+/// A position that is taken as exact.
 impl<F: FrameTag> From<Position<F>> for UncertainPosition<F> {
     fn from(position: Position<F>) -> Self {
         Self {
@@ -197,7 +197,7 @@ impl<F: FrameTag> From<Position<F>> for UncertainPosition<F> {
     }
 }
 
-/// A direction taken for exact.
+/// A direction that is taken as exact.
 impl<F: FrameTag> From<Direction<F>> for UncertainDirection<F> {
     fn from(direction: Direction<F>) -> Self {
         Self {
@@ -244,7 +244,7 @@ fn symmetric3(m: Matrix3<f64>) -> Matrix3<f64> {
     (m + m.transpose()) * 0.5
 }
 
-// By hand: derived, these would ask the tags for what they have no use for.
+// By hand: derived implementations would require the same traits of the frame tags.
 impl<To: FrameTag, From: FrameTag> Clone for UncertainTransform<To, From> {
     fn clone(&self) -> Self {
         *self

@@ -42,8 +42,8 @@ pub struct BoxMark {
 
 /// The image with the boxes drawn over it, later ones over earlier ones.
 ///
-/// A caption stands above its box, or below where there is no room; captions that would cover an earlier one are left out.
-/// A box that cannot be shown is left out too. Widths follow the picture's height.
+/// A caption stands above its box, or below where there is no room; captions that would cover an earlier one are left
+/// out. A box that cannot be shown is left out too. Widths follow the picture's height.
 ///
 /// ```
 /// use pomona_cloud::{ColorImage, PixelBox};
@@ -74,7 +74,7 @@ pub fn draw_boxes(image: &ColorImage, marks: &[BoxMark]) -> Result<ColorImage, V
             outline(&mut canvas, *part, mark.kind.color(), scale);
         }
     }
-    let mut plates: Vec<[i32; 4]> = Vec::new();
+    let mut rectangles: Vec<[i32; 4]> = Vec::new();
     for (mark, part) in marks.iter().zip(&parts) {
         let Some([left, top, _, bottom]) = *part else {
             continue;
@@ -84,13 +84,13 @@ pub fn draw_boxes(image: &ColorImage, marks: &[BoxMark]) -> Result<ColorImage, V
         let x = (left as i32).min(width as i32 - size.0).max(0);
         let above = top as i32 - size.1 - 1;
         let y = if above >= 0 { above } else { bottom as i32 + 1 };
-        let plate = [x, y, x + size.0, y + size.1];
-        let is_free = plates.iter().all(|other| !overlap(plate, *other));
-        if !text.is_empty() && is_free && plate[3] <= height as i32 {
+        let rectangle = [x, y, x + size.0, y + size.1];
+        let is_free = rectangles.iter().all(|other| !overlap(rectangle, *other));
+        if !text.is_empty() && is_free && rectangle[3] <= height as i32 {
             let edges = [x, y, size.0, size.1].map(|v| v as f32);
-            canvas.plate(edges, 2.0, palette::PLATE, 0.8);
+            canvas.rounded_rectangle(edges, 2.0, palette::BACKGROUND, 0.8);
             font.write(&mut canvas, &text, x + 2, y, false, palette::TEXT);
-            plates.push(plate);
+            rectangles.push(rectangle);
         }
     }
     Ok(canvas.into_image())

@@ -48,7 +48,7 @@ pub(crate) fn outline(
 ) {
     let corners = [(left, top), (right, top), (right, bottom), (left, bottom)];
     let corners = corners.map(|(x, y)| Point::from_xy(x, y));
-    canvas.polyline(&corners, true, palette::PLATE, 0.55, 4.0 * scale);
+    canvas.polyline(&corners, true, palette::BACKGROUND, 0.55, 4.0 * scale);
     canvas.polyline(&corners, true, color, 1.0, 2.2 * scale);
 }
 

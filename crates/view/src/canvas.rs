@@ -114,7 +114,7 @@ impl Canvas {
     }
 
     /// A filled rectangle with rounded corners: left, top, width, height.
-    pub(crate) fn plate(
+    pub(crate) fn rounded_rectangle(
         &mut self,
         [x, y, w, h]: [f32; 4],
         radius: f32,
@@ -257,7 +257,7 @@ mod tests {
         canvas.line(Point::from_xy(0.0, 0.0), far, [255; 3], 1.0, 2.0);
         canvas.polygon(&[nan, far, nan], [255; 3], 1.0);
         canvas.disc(far, f32::NAN, [255; 3], 1.0);
-        canvas.plate([f32::NAN, 0.0, 5.0, 5.0], 1.0, [255; 3], 1.0);
+        canvas.rounded_rectangle([f32::NAN, 0.0, 5.0, 5.0], 1.0, [255; 3], 1.0);
         canvas.blend(-1, 40, [255; 3], 1.0);
         assert_eq!(canvas.into_image(), black(20, 20));
     }

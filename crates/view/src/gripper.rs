@@ -69,7 +69,7 @@ fn hull(mut points: Vec<Point>) -> Vec<Point> {
 
 pub(crate) fn draw_path(canvas: &mut Canvas, run: &[Point], scale: f32) {
     // A dark rim sets it off from sunlit leaves.
-    canvas.polyline(run, false, palette::PLATE, 0.6, 4.4 * scale);
+    canvas.polyline(run, false, palette::BACKGROUND, 0.6, 4.4 * scale);
     canvas.polyline(run, false, palette::PATH, 1.0, 2.4 * scale);
 }
 

@@ -1,6 +1,6 @@
 use crate::AppleMark;
 use crate::canvas::{Canvas, Point};
-use crate::layout::Plate;
+use crate::layout::Rectangle;
 use crate::palette;
 use crate::text::{Font, shorten};
 
@@ -56,25 +56,37 @@ impl Label {
         (self.field_width(font) + words, font.line_height() + 2)
     }
 
-    pub(crate) fn draw(&self, canvas: &mut Canvas, plate: Plate, font: Font) {
-        let [x, y, width, height] =
-            [plate.left, plate.top, plate.width, plate.height].map(|v| v as f32);
+    pub(crate) fn draw(&self, canvas: &mut Canvas, rectangle: Rectangle, font: Font) {
+        let [x, y, width, height] = [
+            rectangle.left,
+            rectangle.top,
+            rectangle.width,
+            rectangle.height,
+        ]
+        .map(|v| v as f32);
         let radius = height / 5.0;
-        canvas.plate([x, y, width, height], radius, palette::PLATE, 0.85);
+        canvas.rounded_rectangle([x, y, width, height], radius, palette::BACKGROUND, 0.85);
         let field = self.field_width(font);
-        canvas.plate([x, y, field as f32, height], radius, self.color, 1.0);
-        let left = plate.left + Self::padding(font);
-        let ink = if self.color == palette::REFUSED {
-            palette::PLATE
+        canvas.rounded_rectangle([x, y, field as f32, height], radius, self.color, 1.0);
+        let left = rectangle.left + Self::padding(font);
+        let text_color = if self.color == palette::REFUSED {
+            palette::BACKGROUND
         } else {
             palette::TEXT
         };
-        font.write(canvas, &self.number, left, plate.top + 1, true, ink);
+        font.write(
+            canvas,
+            &self.number,
+            left,
+            rectangle.top + 1,
+            true,
+            text_color,
+        );
         font.write(
             canvas,
             &self.words,
             left + field,
-            plate.top + 1,
+            rectangle.top + 1,
             false,
             palette::TEXT,
         );
@@ -83,18 +95,28 @@ impl Label {
     /// A thin line from a label that had to move away back to the box it names.
     pub(crate) fn draw_leader(
         canvas: &mut Canvas,
-        plate: Plate,
-        anchor: Plate,
+        rectangle: Rectangle,
+        anchor: Rectangle,
         font: Font,
         scale: f32,
     ) {
-        if plate.gap(anchor) < font.line_height() as f32 {
+        if rectangle.gap(anchor) < font.line_height() as f32 {
             return;
         }
-        let (x, anchor_x) = nearest(plate.left, plate.right(), anchor.left, anchor.right());
-        let (y, anchor_y) = nearest(plate.top, plate.bottom(), anchor.top, anchor.bottom());
+        let (x, anchor_x) = nearest(
+            rectangle.left,
+            rectangle.right(),
+            anchor.left,
+            anchor.right(),
+        );
+        let (y, anchor_y) = nearest(
+            rectangle.top,
+            rectangle.bottom(),
+            anchor.top,
+            anchor.bottom(),
+        );
         let (from, to) = (Point::from_xy(x, y), Point::from_xy(anchor_x, anchor_y));
-        canvas.line(from, to, palette::PLATE, 0.7, 3.0 * scale);
+        canvas.line(from, to, palette::BACKGROUND, 0.7, 3.0 * scale);
         canvas.line(from, to, palette::TEXT, 0.9, 1.3 * scale);
     }
 }

@@ -1,15 +1,15 @@
-use crate::ink::Ink;
+use crate::occupancy::Occupancy;
 
 /// A rectangle of whole pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Plate {
+pub(crate) struct Rectangle {
     pub(crate) left: i32,
     pub(crate) top: i32,
     pub(crate) width: i32,
     pub(crate) height: i32,
 }
 
-impl Plate {
+impl Rectangle {
     pub(crate) fn right(self) -> i32 {
         self.left + self.width
     }
@@ -44,10 +44,10 @@ impl Plate {
 
 /// What wants a label: its size, the thing it names, and where the label would best have its centre.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Wish {
+pub(crate) struct LabelRequest {
     pub(crate) width: i32,
     pub(crate) height: i32,
-    pub(crate) anchor: Plate,
+    pub(crate) anchor: Rectangle,
     pub(crate) center: Option<(i32, i32)>,
 }
 
@@ -56,15 +56,15 @@ pub(crate) struct Wish {
 pub(crate) struct Layout<'a> {
     width: i32,
     height: i32,
-    ink: &'a Ink,
-    /// Placed plates, by the squares of the picture that they touch.
-    squares: Vec<Vec<Plate>>,
+    occupancy: &'a Occupancy,
+    /// Placed rectangles, by the squares of the picture that they touch.
+    squares: Vec<Vec<Rectangle>>,
     columns: i32,
     /// The smallest sizes that found no room; more labels never make more room.
-    hopeless: Vec<(i32, i32)>,
+    unplaceable: Vec<(i32, i32)>,
 }
 
-/// Side of the squares by which placed plates are found again, pixels.
+/// Side of the squares by which placed rectangles are found again, pixels.
 const SQUARE: i32 = 64;
 /// Rings of candidates around the thing named; each is half a label's height further out.
 const RINGS: i32 = 12;
@@ -72,124 +72,127 @@ const RINGS: i32 = 12;
 const HIDING_COST: f64 = 14.0;
 
 impl<'a> Layout<'a> {
-    pub(crate) fn new(width: usize, height: usize, ink: &'a Ink) -> Self {
+    pub(crate) fn new(width: usize, height: usize, occupancy: &'a Occupancy) -> Self {
         let (width, height) = (width as i32, height as i32);
         let columns = width / SQUARE + 1;
         let squares = vec![Vec::new(); (columns * (height / SQUARE + 1)) as usize];
         Self {
             width,
             height,
-            ink,
+            occupancy,
             squares,
             columns,
-            hopeless: Vec::new(),
+            unplaceable: Vec::new(),
         }
     }
 
-    /// Takes the room for a plate that stands already.
-    pub(crate) fn reserve(&mut self, plate: Plate) {
-        for square in self.squares_of(plate) {
-            self.squares[square].push(plate);
+    /// Reserves a rectangle in which something is drawn already.
+    pub(crate) fn reserve(&mut self, rectangle: Rectangle) {
+        for square in self.squares_of(rectangle) {
+            self.squares[square].push(rectangle);
         }
     }
 
     /// Finds room for a label and takes it; `None` where there is none.
     ///
     /// Looked at are positions in rings around the thing named, then a raster over the whole picture.
-    pub(crate) fn place(&mut self, wish: &Wish) -> Option<Plate> {
-        let plate = self.near(wish).or_else(|| self.anywhere(wish))?;
-        self.reserve(plate);
-        Some(plate)
+    pub(crate) fn place(&mut self, request: &LabelRequest) -> Option<Rectangle> {
+        let rectangle = self.near(request).or_else(|| self.anywhere(request))?;
+        self.reserve(rectangle);
+        Some(rectangle)
     }
 
-    fn near(&self, wish: &Wish) -> Option<Plate> {
-        let mut best: Option<(f64, Plate)> = None;
+    fn near(&self, request: &LabelRequest) -> Option<Rectangle> {
+        let mut best: Option<(f64, Rectangle)> = None;
         let mut consider = |left: i32, top: i32, distance: f64| {
-            let Some(plate) = self.inside(left, top, wish) else {
+            let Some(rectangle) = self.inside(left, top, request) else {
                 return;
             };
-            let shift = f64::from((plate.left - left).abs() + (plate.top - top).abs());
-            let hidden = self.ink.mean(plate.edges());
-            let cost = HIDING_COST * hidden + distance + shift / f64::from(wish.height.max(1));
-            if best.is_none_or(|(least, _)| cost < least) && self.is_free(plate) {
-                best = Some((cost, plate));
+            let shift = f64::from((rectangle.left - left).abs() + (rectangle.top - top).abs());
+            let hidden = self.occupancy.mean(rectangle.edges());
+            let cost = HIDING_COST * hidden + distance + shift / f64::from(request.height.max(1));
+            if best.is_none_or(|(least, _)| cost < least) && self.is_free(rectangle) {
+                best = Some((cost, rectangle));
             }
         };
-        if let Some((x, y)) = wish.center {
-            consider(x - wish.width / 2, y - wish.height / 2, 0.0);
+        if let Some((x, y)) = request.center {
+            consider(x - request.width / 2, y - request.height / 2, 0.0);
         }
         for ring in 0..RINGS {
-            let out = ring * wish.height / 2;
-            for (order, (left, top)) in around(wish, out).into_iter().enumerate() {
+            let out = ring * request.height / 2;
+            for (order, (left, top)) in around(request, out).into_iter().enumerate() {
                 consider(left, top, 0.5 + f64::from(ring) + 0.01 * order as f64);
             }
         }
-        best.map(|(_, plate)| plate)
+        best.map(|(_, rectangle)| rectangle)
     }
 
-    fn anywhere(&mut self, wish: &Wish) -> Option<Plate> {
-        let (w, h) = (wish.width, wish.height);
+    fn anywhere(&mut self, request: &LabelRequest) -> Option<Rectangle> {
+        let (w, h) = (request.width, request.height);
         let too_large = w > self.width || h > self.height;
-        if too_large || w < 1 || h < 1 || self.hopeless.iter().any(|(fw, fh)| w >= *fw && h >= *fh)
+        if too_large
+            || w < 1
+            || h < 1
+            || self.unplaceable.iter().any(|(fw, fh)| w >= *fw && h >= *fh)
         {
             return None;
         }
         let rows = (0..=self.height - h).step_by(h.unsigned_abs() as usize);
         let places = rows.flat_map(|top| {
             let columns = (0..=self.width - w).step_by(h.unsigned_abs() as usize);
-            columns.map(move |left| Plate {
+            columns.map(move |left| Rectangle {
                 left,
                 top,
                 width: w,
                 height: h,
             })
         });
-        let free = places.filter(|plate| self.is_free(*plate));
-        let nearest = free.min_by(|a, b| a.gap(wish.anchor).total_cmp(&b.gap(wish.anchor)));
+        let free = places.filter(|rectangle| self.is_free(*rectangle));
+        let nearest = free.min_by(|a, b| a.gap(request.anchor).total_cmp(&b.gap(request.anchor)));
         if nearest.is_none() {
-            self.hopeless.push((w, h));
+            self.unplaceable.push((w, h));
         }
         nearest
     }
 
     /// The label at this corner, moved into the picture; `None` where it is larger than that.
-    fn inside(&self, left: i32, top: i32, wish: &Wish) -> Option<Plate> {
-        let (room_x, room_y) = (self.width - wish.width, self.height - wish.height);
-        (room_x >= 0 && room_y >= 0).then(|| Plate {
+    fn inside(&self, left: i32, top: i32, request: &LabelRequest) -> Option<Rectangle> {
+        let (room_x, room_y) = (self.width - request.width, self.height - request.height);
+        (room_x >= 0 && room_y >= 0).then(|| Rectangle {
             left: left.clamp(0, room_x),
             top: top.clamp(0, room_y),
-            width: wish.width,
-            height: wish.height,
+            width: request.width,
+            height: request.height,
         })
     }
 
-    fn is_free(&self, plate: Plate) -> bool {
+    fn is_free(&self, rectangle: Rectangle) -> bool {
         // One pixel of air between labels.
-        let Plate {
+        let Rectangle {
             left,
             top,
             width,
             height,
-        } = plate;
-        let aired = Plate {
+        } = rectangle;
+        let aired = Rectangle {
             left: left - 1,
             top: top - 1,
             width: width + 2,
             height: height + 2,
         };
-        self.squares_of(plate)
+        self.squares_of(rectangle)
             .all(|square| self.squares[square].iter().all(|p| !p.overlaps(aired)))
     }
 
-    fn squares_of(&self, plate: Plate) -> impl Iterator<Item = usize> + use<> {
+    fn squares_of(&self, rectangle: Rectangle) -> impl Iterator<Item = usize> + use<> {
         // One pixel more, so that a neighbour across a square's border is seen.
         let range = |from: i32, to: i32, size: i32| {
             let last = size / SQUARE;
             ((from - 1) / SQUARE).clamp(0, last)..=((to + 1) / SQUARE).clamp(0, last)
         };
         let columns = self.columns;
-        let across = range(plate.left, plate.right(), self.width);
-        range(plate.top, plate.bottom(), self.height).flat_map(move |row| {
+        let across = range(rectangle.left, rectangle.right(), self.width);
+        range(rectangle.top, rectangle.bottom(), self.height).flat_map(move |row| {
             across
                 .clone()
                 .map(move |column| (row * columns + column) as usize)
@@ -198,16 +201,16 @@ impl<'a> Layout<'a> {
 }
 
 /// Top-left corners of the label around its anchor, `out` px further away than touching.
-fn around(wish: &Wish, out: i32) -> [(i32, i32); 12] {
-    let a = wish.anchor;
+fn around(request: &LabelRequest, out: i32) -> [(i32, i32); 12] {
+    let a = request.anchor;
     let gap = out + 3;
-    let (above, below) = (a.top - gap - wish.height, a.bottom() + gap);
-    let (before, after) = (a.left - gap - wish.width, a.right() + gap);
+    let (above, below) = (a.top - gap - request.height, a.bottom() + gap);
+    let (before, after) = (a.left - gap - request.width, a.right() + gap);
     let (middle_x, middle_y) = (
-        a.left + (a.width - wish.width) / 2,
-        a.top + (a.height - wish.height) / 2,
+        a.left + (a.width - request.width) / 2,
+        a.top + (a.height - request.height) / 2,
     );
-    let (flush_right, flush_bottom) = (a.right() - wish.width, a.bottom() - wish.height);
+    let (flush_right, flush_bottom) = (a.right() - request.width, a.bottom() - request.height);
     [
         (a.left, above),
         (middle_x, above),
@@ -229,11 +232,11 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    fn wish(x: i32, y: i32, width: i32, height: i32) -> Wish {
-        Wish {
+    fn request(x: i32, y: i32, width: i32, height: i32) -> LabelRequest {
+        LabelRequest {
             width,
             height,
-            anchor: Plate {
+            anchor: Rectangle {
                 left: x,
                 top: y,
                 width: 20,
@@ -243,29 +246,29 @@ mod tests {
         }
     }
 
-    fn lies_inside(p: Plate, width: i32, height: i32) -> bool {
+    fn lies_inside(p: Rectangle, width: i32, height: i32) -> bool {
         p.left >= 0 && p.top >= 0 && p.right() <= width && p.bottom() <= height
     }
 
     #[test]
     fn a_lone_label_stands_beside_its_thing() {
-        let mut ink = Ink::new(200, 100);
-        ink.spread([90.0, 40.0, 110.0, 60.0], 1.0);
-        let ink = ink.settle();
-        let plate = Layout::new(200, 100, &ink)
-            .place(&wish(90, 40, 40, 12))
+        let mut occupancy = Occupancy::new(200, 100);
+        occupancy.add_rectangle([90.0, 40.0, 110.0, 60.0], 1.0);
+        let occupancy = occupancy.integrated();
+        let rectangle = Layout::new(200, 100, &occupancy)
+            .place(&request(90, 40, 40, 12))
             .unwrap();
-        assert!(plate.gap(wish(90, 40, 0, 0).anchor) <= 5.0);
-        assert_eq!(ink.mean(plate.edges()), 0.0);
+        assert!(rectangle.gap(request(90, 40, 0, 0).anchor) <= 5.0);
+        assert_eq!(occupancy.mean(rectangle.edges()), 0.0);
     }
 
     #[test]
     fn what_does_not_fit_is_left_out() {
-        let ink = Ink::new(50, 50).settle();
-        let mut layout = Layout::new(50, 50, &ink);
-        assert!(layout.place(&wish(0, 0, 51, 5)).is_none());
-        assert!(layout.place(&wish(0, 0, 50, 50)).is_some());
-        assert!(layout.place(&wish(0, 0, 1, 1)).is_none());
+        let occupancy = Occupancy::new(50, 50).integrated();
+        let mut layout = Layout::new(50, 50, &occupancy);
+        assert!(layout.place(&request(0, 0, 51, 5)).is_none());
+        assert!(layout.place(&request(0, 0, 50, 50)).is_some());
+        assert!(layout.place(&request(0, 0, 1, 1)).is_none());
     }
 
     proptest! {
@@ -274,13 +277,13 @@ mod tests {
         fn labels_neither_overlap_nor_leave_the_picture(
             things in prop::collection::vec((-50..700i32, -50..500i32, 10..80i32), 0..40),
         ) {
-            let ink = Ink::new(640, 480).settle();
-            let mut layout = Layout::new(640, 480, &ink);
-            let mut placed: Vec<Plate> = Vec::new();
+            let occupancy = Occupancy::new(640, 480).integrated();
+            let mut layout = Layout::new(640, 480, &occupancy);
+            let mut placed: Vec<Rectangle> = Vec::new();
             for (x, y, width) in &things {
-                let plate = layout.place(&wish(*x, *y, *width, 18));
-                prop_assert!(plate.is_some());
-                placed.extend(plate);
+                let rectangle = layout.place(&request(*x, *y, *width, 18));
+                prop_assert!(rectangle.is_some());
+                placed.extend(rectangle);
             }
             for (i, a) in placed.iter().enumerate() {
                 prop_assert!(lies_inside(*a, 640, 480));
@@ -292,10 +295,10 @@ mod tests {
         fn crowds_stay_apart_too(
             things in prop::collection::vec((0..200i32, 0..100i32, 1..90i32), 0..200),
         ) {
-            let ink = Ink::new(200, 100).settle();
-            let mut layout = Layout::new(200, 100, &ink);
-            let placed: Vec<Plate> =
-                things.iter().filter_map(|(x, y, width)| layout.place(&wish(*x, *y, *width, 18))).collect();
+            let occupancy = Occupancy::new(200, 100).integrated();
+            let mut layout = Layout::new(200, 100, &occupancy);
+            let placed: Vec<Rectangle> =
+                things.iter().filter_map(|(x, y, width)| layout.place(&request(*x, *y, *width, 18))).collect();
             for (i, a) in placed.iter().enumerate() {
                 prop_assert!(lies_inside(*a, 200, 100));
                 prop_assert!(placed[..i].iter().all(|b| !a.overlaps(*b)));

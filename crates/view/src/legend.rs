@@ -2,8 +2,8 @@ use crate::arrow::draw_arrow;
 use crate::boxes::{draw_box, draw_refused_box};
 use crate::canvas::{Canvas, Point};
 use crate::gripper::{draw_gripper, draw_path};
-use crate::ink::Ink;
-use crate::layout::Plate;
+use crate::layout::Rectangle;
+use crate::occupancy::Occupancy;
 use crate::palette;
 use crate::projection::ArrowShape;
 use crate::text::{Font, shorten};
@@ -74,7 +74,12 @@ impl Legend {
 
     /// The corner where the legend hides least; `None` where it would take
     /// more than a third of the picture's width or height or has nothing to say.
-    pub(crate) fn place(&self, width: usize, height: usize, ink: &Ink) -> Option<Plate> {
+    pub(crate) fn place(
+        &self,
+        width: usize,
+        height: usize,
+        occupancy: &Occupancy,
+    ) -> Option<Rectangle> {
         let longest = self
             .entries
             .iter()
@@ -94,29 +99,42 @@ impl Legend {
             (margin, margin),
             (far_x, margin),
         ];
-        let plates = corners.map(|(left, top)| Plate {
+        let rectangles = corners.map(|(left, top)| Rectangle {
             left,
             top,
             width: w,
             height: h,
         });
-        plates
-            .into_iter()
-            .min_by(|a, b| ink.mean(a.edges()).total_cmp(&ink.mean(b.edges())))
+        rectangles.into_iter().min_by(|a, b| {
+            occupancy
+                .mean(a.edges())
+                .total_cmp(&occupancy.mean(b.edges()))
+        })
     }
 
-    pub(crate) fn draw(&self, canvas: &mut Canvas, plate: Plate) {
-        let edges = [plate.left, plate.top, plate.width, plate.height].map(|v| v as f32);
-        canvas.plate(edges, self.padding() as f32 / 2.0, palette::PLATE, 0.85);
-        let text_left = plate.left + 2 * self.padding() + self.sample_width();
-        let columns = (plate.right() - text_left) / self.font.char_width();
+    pub(crate) fn draw(&self, canvas: &mut Canvas, rectangle: Rectangle) {
+        let edges = [
+            rectangle.left,
+            rectangle.top,
+            rectangle.width,
+            rectangle.height,
+        ]
+        .map(|v| v as f32);
+        canvas.rounded_rectangle(
+            edges,
+            self.padding() as f32 / 2.0,
+            palette::BACKGROUND,
+            0.85,
+        );
+        let text_left = rectangle.left + 2 * self.padding() + self.sample_width();
+        let columns = (rectangle.right() - text_left) / self.font.char_width();
         for (row, entry) in self.entries.iter().enumerate() {
-            let top = plate.top + self.padding() + row as i32 * self.row_height();
+            let top = rectangle.top + self.padding() + row as i32 * self.row_height();
             let words = shorten(&entry.words(), columns.max(0) as usize);
             let text_top = top + (self.row_height() - self.font.line_height()) / 2;
             self.font
                 .write(canvas, &words, text_left, text_top, false, palette::TEXT);
-            let left = (plate.left + self.padding()) as f32;
+            let left = (rectangle.left + self.padding()) as f32;
             let middle = top as f32 + self.row_height() as f32 / 2.0;
             self.draw_sample(canvas, entry, left, middle);
         }

@@ -2,10 +2,10 @@ use crate::arrow::{MARKER_RADIUS, draw_arrow};
 use crate::boxes::{draw_box, draw_refused_box, visible_part};
 use crate::canvas::{Canvas, Point};
 use crate::gripper::{capsule_outline, draw_gripper, draw_path, path_runs};
-use crate::ink::Ink;
 use crate::label::Label;
-use crate::layout::{Layout, Plate, Wish};
+use crate::layout::{LabelRequest, Layout, Rectangle};
 use crate::legend::{Entry, Legend};
+use crate::occupancy::Occupancy;
 use crate::points::draw_points;
 use crate::projection::{ArrowShape, arrow_shape, image_of, sphere_outline};
 use crate::text::Font;
@@ -33,7 +33,7 @@ struct Sketch {
     path: Vec<Vec<Point>>,
     gripper: Vec<Vec<Point>>,
     label: Label,
-    wish: Option<Wish>,
+    request: Option<LabelRequest>,
 }
 
 impl<'a> Overlay<'a> {
@@ -95,35 +95,36 @@ impl<'a> Overlay<'a> {
             draw_arrow(&mut canvas, arrow, scale);
         }
 
-        let ink = ink_of(&sketches, width, height, scale);
+        let occupancy = occupancy_of(&sketches, width, height, scale);
         let entries = if self.legend {
             entries_of(marks, &sketches)
         } else {
             Vec::new()
         };
         let mut legend = Legend::new(entries.clone(), font, scale);
-        let mut corner = legend.place(width, height, &ink);
-        let mut plates = place_labels(&sketches, corner, width, height, &ink);
-        let left_out = |plates: &[Option<Plate>]| plates.iter().filter(|p| p.is_none()).count();
-        if self.legend && left_out(&plates) > 0 {
+        let mut corner = legend.place(width, height, &occupancy);
+        let mut rectangles = place_labels(&sketches, corner, width, height, &occupancy);
+        let left_out =
+            |rectangles: &[Option<Rectangle>]| rectangles.iter().filter(|p| p.is_none()).count();
+        if self.legend && left_out(&rectangles) > 0 {
             // The legend grows by a line, so the labels are placed once more around it.
             let more = |count| [entries.clone(), vec![Entry::LeftOut(count)]].concat();
-            corner = Legend::new(more(marks.len()), font, scale).place(width, height, &ink);
-            plates = place_labels(&sketches, corner, width, height, &ink);
-            legend = Legend::new(more(left_out(&plates)), font, scale);
+            corner = Legend::new(more(marks.len()), font, scale).place(width, height, &occupancy);
+            rectangles = place_labels(&sketches, corner, width, height, &occupancy);
+            legend = Legend::new(more(left_out(&rectangles)), font, scale);
         }
 
-        for (sketch, plate) in sketches.iter().zip(&plates) {
-            if let (Some(wish), Some(plate)) = (&sketch.wish, plate) {
-                Label::draw_leader(&mut canvas, *plate, wish.anchor, font, scale);
+        for (sketch, rectangle) in sketches.iter().zip(&rectangles) {
+            if let (Some(request), Some(rectangle)) = (&sketch.request, rectangle) {
+                Label::draw_leader(&mut canvas, *rectangle, request.anchor, font, scale);
             }
         }
         if let Some(corner) = corner {
             legend.draw(&mut canvas, corner);
         }
-        for (sketch, plate) in sketches.iter().zip(&plates) {
-            if let Some(plate) = plate {
-                sketch.label.draw(&mut canvas, *plate, font);
+        for (sketch, rectangle) in sketches.iter().zip(&rectangles) {
+            if let Some(rectangle) = rectangle {
+                sketch.label.draw(&mut canvas, *rectangle, font);
             }
         }
         Ok(canvas.into_image())
@@ -152,16 +153,16 @@ impl<'a> Overlay<'a> {
             let p = point.and_then(|p| image_of(self.camera, &p)).filter(seen)?;
             Some([p.x, p.y, p.x, p.y])
         });
-        let wish = anchor.map(|[left, top, right, bottom]| {
+        let request = anchor.map(|[left, top, right, bottom]| {
             let (l, t) = (left.floor() as i32, top.floor() as i32);
-            let anchor = Plate {
+            let anchor = Rectangle {
                 left: l,
                 top: t,
                 width: right.ceil() as i32 - l,
                 height: bottom.ceil() as i32 - t,
             };
             let center = arrow.as_ref().and_then(|arrow| beyond_tip(arrow, size));
-            Wish {
+            LabelRequest {
                 width: size.0,
                 height: size.1,
                 anchor,
@@ -179,7 +180,7 @@ impl<'a> Overlay<'a> {
                 .filter_map(|part| capsule_outline(self.camera, part))
                 .collect(),
             label,
-            wish,
+            request,
         }
     }
 }
@@ -203,38 +204,38 @@ fn beyond_tip(arrow: &ArrowShape, (width, height): (i32, i32)) -> Option<(i32, i
 }
 
 /// What labels should not hide: boxes, and arrows all the more.
-fn ink_of(sketches: &[Sketch], width: usize, height: usize, scale: f32) -> Ink {
-    let mut ink = Ink::new(width, height);
+fn occupancy_of(sketches: &[Sketch], width: usize, height: usize, scale: f32) -> Occupancy {
+    let mut occupancy = Occupancy::new(width, height);
     for sketch in sketches {
         if let Some(part) = sketch.part {
-            ink.spread(part, 1.0);
+            occupancy.add_rectangle(part, 1.0);
         }
         match sketch.arrow {
-            Some(ArrowShape::Across { start, tip }) => ink.trace(start, tip, 2.0),
+            Some(ArrowShape::Across { start, tip }) => occupancy.add_line(start, tip, 2.0),
             Some(ArrowShape::Towards { at } | ArrowShape::Away { at }) => {
                 let r = MARKER_RADIUS * scale;
-                ink.spread([at.x - r, at.y - r, at.x + r, at.y + r], 2.0);
+                occupancy.add_rectangle([at.x - r, at.y - r, at.x + r, at.y + r], 2.0);
             }
             None => {}
         }
     }
-    ink.settle()
+    occupancy.integrated()
 }
 
 fn place_labels(
     sketches: &[Sketch],
-    corner: Option<Plate>,
+    corner: Option<Rectangle>,
     width: usize,
     height: usize,
-    ink: &Ink,
-) -> Vec<Option<Plate>> {
-    let mut layout = Layout::new(width, height, ink);
+    occupancy: &Occupancy,
+) -> Vec<Option<Rectangle>> {
+    let mut layout = Layout::new(width, height, occupancy);
     if let Some(corner) = corner {
         layout.reserve(corner);
     }
     sketches
         .iter()
-        .map(|sketch| layout.place(sketch.wish.as_ref()?))
+        .map(|sketch| layout.place(sketch.request.as_ref()?))
         .collect()
 }
 

@@ -20,7 +20,7 @@ pub const REFUSED: [u8; 3] = [255, 150, 20];
 /// Outline of a fitted sphere: white, which the paper does not draw.
 pub const SPHERE: [u8; 3] = [255, 255, 255];
 
-/// Plate behind a text.
-pub(crate) const PLATE: [u8; 3] = [20, 22, 28];
-/// Text on a plate, and the rim that sets an arrow off from a red apple.
+/// Background of a label.
+pub(crate) const BACKGROUND: [u8; 3] = [20, 22, 28];
+/// Text of a label, and the rim that sets an arrow off from a red apple.
 pub(crate) const TEXT: [u8; 3] = [255, 255, 255];

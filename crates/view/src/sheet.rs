@@ -42,7 +42,7 @@ pub fn picture_sheet(
     let mut sheet = ColorImage::filled(
         columns * (side + GAP) + GAP,
         rows * (side + line + GAP) + GAP,
-        palette::PLATE,
+        palette::BACKGROUND,
     );
     let corner = |index: usize| {
         let (column, row) = (index % columns, index / columns);

@@ -61,12 +61,16 @@ impl Font {
                 get_raster(c, weight, self.raster).or_else(|| get_raster('?', weight, self.raster));
             let Some(glyph) = glyph else { continue };
             for (row, line) in glyph.raster().iter().enumerate() {
-                for (column, ink) in line.iter().enumerate().filter(|(_, ink)| **ink > 0) {
+                for (column, coverage) in line
+                    .iter()
+                    .enumerate()
+                    .filter(|(_, coverage)| **coverage > 0)
+                {
                     let (x, y) = (
                         left + column as i32 * self.multiple,
                         y + row as i32 * self.multiple,
                     );
-                    self.block(canvas, x, y, color, f32::from(*ink) / 255.0);
+                    self.block(canvas, x, y, color, f32::from(*coverage) / 255.0);
                 }
             }
         }
@@ -119,10 +123,11 @@ mod tests {
         font.write(&mut canvas, "8ü🍎", 10, 5, true, [255; 3]);
         let right = 10 + font.width("8ü🍎");
         let image = canvas.into_image();
-        let ink: Vec<usize> = (0..2400).filter(|i| image.pixels[*i] != [0; 3]).collect();
-        assert!(ink.len() > 50);
+        let coverage: Vec<usize> = (0..2400).filter(|i| image.pixels[*i] != [0; 3]).collect();
+        assert!(coverage.len() > 50);
         assert!(
-            ink.iter()
+            coverage
+                .iter()
                 .all(|i| (10..right).contains(&((i % 60) as i32)) && (5..21).contains(&(i / 60)))
         );
     }

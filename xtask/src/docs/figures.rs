@@ -3,7 +3,7 @@
 use super::directive::Directive;
 use anyhow::{Context, Result, ensure};
 use std::{fs, path::Path};
-use xtask::gate::{Field, Golden};
+use xtask_gate::{Field, Golden};
 
 const GOLDENS: &str = "fixtures/golden";
 const FIGURES: &str = "docs/figures.toml";

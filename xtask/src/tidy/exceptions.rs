@@ -10,13 +10,8 @@ pub(super) const UNNAMED_DEPENDENCIES: &[(&str, &str, &str)] = &[];
 pub(super) const CRATES_WITH_CIRCLES: &[&str] = &[
     "pomona",
     "pomona-approach",
-    "pomona-calibrate",
     "pomona-cli",
-    "pomona-cloud",
     "pomona-detect",
-    "pomona-evaluate",
     "pomona-fit",
     "pomona-ransac",
-    "pomona-scenes",
-    "pomona-transforms",
 ];

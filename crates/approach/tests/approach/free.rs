@@ -153,7 +153,7 @@ fn the_reported_clearance_is_that_of_the_path() {
         let mut world = World::random(seed);
         world.leaves.clear();
         let (apples, branches) = (world.apples.clone(), world.branches.clone());
-        world.seen = pomona_approach::Scene::new(apples, branches, &[], &config().clearance);
+        world.seen = pomona_approach::ObstacleMap::new(apples, branches, &[], &config().clearance);
         let Ok(approach) = planner.plan(&world.seen, &world.targets[0], &world.start) else {
             continue;
         };

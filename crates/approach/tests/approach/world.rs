@@ -1,7 +1,7 @@
 //! Scenes whose truth is known, and what a planner sees of them.
 
 use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
-use pomona_approach::{ApproachConfig, Planner, Scene, StartPose, Target};
+use pomona_approach::{ApproachConfig, ObstacleMap, Planner, StartPose, Target};
 use pomona_geometry::{Capsule, Segment, Sphere};
 use pomona_transforms::Direction;
 use rand::{RngExt, SeedableRng};
@@ -12,7 +12,7 @@ pub(crate) struct World {
     pub(crate) apples: Vec<Sphere>,
     pub(crate) branches: Vec<Capsule>,
     pub(crate) leaves: Vec<Point3<f64>>,
-    pub(crate) seen: Scene,
+    pub(crate) seen: ObstacleMap,
     pub(crate) seen_apples: Vec<Sphere>,
     pub(crate) targets: Vec<Target>,
     pub(crate) start: StartPose,
@@ -88,7 +88,7 @@ impl World {
             })
             .collect();
         let cloud: Vec<_> = leaves.iter().map(|p| jitter(&mut rng, p)).collect();
-        let seen = Scene::new(
+        let seen = ObstacleMap::new(
             seen_apples.clone(),
             seen_branches,
             &cloud,
@@ -152,9 +152,9 @@ impl Simple {
         }
     }
 
-    pub(crate) fn scene(&self, config: &ApproachConfig) -> Scene {
+    pub(crate) fn scene(&self, config: &ApproachConfig) -> ObstacleMap {
         let (apples, branches) = (self.apples.clone(), self.branches.clone());
-        Scene::new(apples, branches, &self.cloud, &config.clearance)
+        ObstacleMap::new(apples, branches, &self.cloud, &config.clearance)
     }
 
     /// A ball of cloud points, as of a bundle of leaves.

@@ -5,21 +5,22 @@ use super::search::LEAST_POINTS;
 use super::similarity::Similarity;
 use crate::Options;
 use crate::quality::{LeftOut, shift_at};
-use crate::robust::{MEDIAN_NORM_OF_3, StudentT, median};
+use crate::robust::{MEDIAN_NORM_OF_3, StudentT};
 use nalgebra::{Matrix3, Matrix3x6, Matrix6, Vector3};
+use pomona_statistics::median;
 use pomona_transforms::twist;
 
-/// The least noise that is believed, m.
+/// Lower bound of the estimated noise, m.
 const FLOOR_M: f64 = 1e-6;
 
-/// Six unknowns are the price of two samples.
+/// Samples whose degrees of freedom the six unknowns use up.
 const USED: f64 = 2.0;
 
 const MAX_ROUNDS: usize = 50;
 
 type Loss = StudentT<3>;
 
-/// A model with all that was learnt beside it.
+/// A model with its noise, weights and covariance.
 pub(super) struct Fit {
     pub(super) model: Similarity,
     /// Standard deviation of one component.
@@ -43,7 +44,8 @@ pub(super) fn refine(pairs: &PointPairs, inliers: &[usize], start: &Similarity) 
     let mut model = *start;
     let mut kept: Vec<usize> = inliers.to_vec();
     let of_inliers = residuals(&model);
-    let middle = median(kept.iter().map(|&i| of_inliers[i]).collect());
+    let mut of_kept: Vec<f64> = kept.iter().map(|&i| of_inliers[i]).collect();
+    let middle = median(&mut of_kept)?;
     let mut sigma_m = (middle / MEDIAN_NORM_OF_3).max(FLOOR_M);
     for _ in 0..MAX_ROUNDS {
         let r = residuals(&model);
@@ -73,7 +75,7 @@ pub(super) fn refine(pairs: &PointPairs, inliers: &[usize], start: &Similarity) 
             break;
         }
     }
-    // Once more with the samples that were kept last, so that the report belongs to the model.
+    // Once more with the final inliers, so that the report belongs to the model.
     let r = residuals(&model);
     let last: Vec<f64> = kept
         .iter()

@@ -1,7 +1,8 @@
 //! Joint refinement of both unknowns on SE(3) × SE(3).
 
 use super::system::{HandEyeModel, Matrix12, Offset, Pair, Scale, normal_equations};
-use crate::robust::{MEDIAN_NORM_OF_3, StudentT, median};
+use crate::robust::{MEDIAN_NORM_OF_3, StudentT};
+use pomona_statistics::median;
 
 /// Three poses determine the unknowns; a fourth tells whether one of them is wrong.
 pub(crate) const LEAST_POSES: usize = 4;
@@ -10,10 +11,10 @@ const MAX_STEPS: usize = 50;
 const MAX_ROUNDS: usize = 30;
 const MAX_DAMPING: f64 = 1e10;
 
-/// Twelve unknowns are the price of two samples.
+/// Samples whose degrees of freedom the twelve unknowns use up.
 const USED: f64 = 2.0;
 
-/// The least noise that is believed, so that samples without any do not make each other outliers.
+/// Lower bound of the estimated noise, so that exact samples do not make each other outliers.
 const FLOOR: Scale = Scale {
     rotation_rad: 1e-5,
     translation_m: 1e-6,
@@ -70,7 +71,7 @@ pub(crate) fn least_squares(
     model.is_finite().then_some(model)
 }
 
-/// A model with all that was learnt beside it.
+/// A model with its noise, weights and covariance.
 #[derive(Clone, Debug)]
 pub(crate) struct Fit {
     pub(crate) model: HandEyeModel,
@@ -98,7 +99,7 @@ impl Fit {
 pub(crate) fn robust(pairs: &[Pair], inliers: &[usize], start: &HandEyeModel) -> Option<Fit> {
     let mut model = *start;
     let mut kept: Vec<bool> = (0..pairs.len()).map(|i| inliers.contains(&i)).collect();
-    let mut noise = first_noise(pairs, &kept, &model);
+    let mut noise = first_noise(pairs, &kept, &model)?;
     for _ in 0..MAX_ROUNDS {
         let squared: Vec<f64> = pairs
             .iter()
@@ -120,7 +121,7 @@ pub(crate) fn robust(pairs: &[Pair], inliers: &[usize], start: &HandEyeModel) ->
             break;
         }
     }
-    // Once more with the samples that were kept last, so that the report belongs to the model.
+    // Once more with the final inliers, so that the report belongs to the model.
     let squared: Vec<f64> = pairs
         .iter()
         .map(|p| model.offset(p).squared(&noise))
@@ -162,15 +163,16 @@ fn close(a: &Scale, b: &Scale) -> bool {
 }
 
 /// The noise by medians, before anything is weighted.
-fn first_noise(pairs: &[Pair], kept: &[bool], model: &HandEyeModel) -> Scale {
+fn first_noise(pairs: &[Pair], kept: &[bool], model: &HandEyeModel) -> Option<Scale> {
     let size = |part: fn(&Offset) -> f64| {
         let offsets = pairs.iter().zip(kept).filter(|(_, k)| **k);
-        median(offsets.map(|(p, _)| part(&model.offset(p))).collect()) / MEDIAN_NORM_OF_3
+        let mut sizes: Vec<f64> = offsets.map(|(p, _)| part(&model.offset(p))).collect();
+        Some(median(&mut sizes)? / MEDIAN_NORM_OF_3)
     };
-    Scale {
-        rotation_rad: size(|o| o.rotation.norm()).max(FLOOR.rotation_rad),
-        translation_m: size(|o| o.translation.norm()).max(FLOOR.translation_m),
-    }
+    Some(Scale {
+        rotation_rad: size(|o| o.rotation.norm())?.max(FLOOR.rotation_rad),
+        translation_m: size(|o| o.translation.norm())?.max(FLOOR.translation_m),
+    })
 }
 
 /// The noise by weighted squares.

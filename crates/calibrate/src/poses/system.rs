@@ -28,7 +28,7 @@ pub(crate) struct HandEyeModel {
     pub(crate) target: Isometry3<f64>,
 }
 
-/// How far the target was seen from where the model puts it, in the camera's frame.
+/// Difference between the predicted and the observed pose of the target, in the camera's frame.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Offset {
     /// Rotation vector, rad.

@@ -4,7 +4,7 @@ use crate::binary::{pomona, tree};
 use crate::scene::Bench;
 use pomona_cloud::{Camera, PointCloud};
 use pomona_fusion::FusedRecord;
-use pomona_scenes::{Axis, Lab, Orientation, Sensor, Shot};
+use pomona_scenes::{CameraAxis, Lab, Orientation, Sensor, Shot};
 use std::path::PathBuf;
 
 const POSE: &str = r#"{"schema": "pomona.transform/1", "to": "base", "from": "camera_color_optical_frame",
@@ -23,7 +23,7 @@ pub(crate) fn bench() -> Bench {
         ..Shot::paper_camera()
     };
     let upright = Orientation {
-        axis: Axis::X,
+        axis: CameraAxis::X,
         degrees: 0,
     };
     let world = Lab::default().world(upright);

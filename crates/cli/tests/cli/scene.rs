@@ -1,5 +1,5 @@
 use pomona_cloud::{Camera, Frame, PixelBox};
-use pomona_scenes::{Axis, Lab, Orientation, Scene, Sensor, Shot};
+use pomona_scenes::{CameraAxis, Lab, Orientation, Scene, Sensor, Shot};
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
@@ -15,7 +15,7 @@ pub(crate) fn scene(id: &str) -> Scene {
         ..Shot::paper_camera()
     };
     let upright = Orientation {
-        axis: Axis::X,
+        axis: CameraAxis::X,
         degrees: 0,
     };
     Shot::new(id, camera, Sensor::paper(), 1).take(&Lab::default().world(upright))

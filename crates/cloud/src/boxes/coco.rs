@@ -59,7 +59,7 @@ pub(super) struct Category {
     pub(super) name: Option<String>,
 }
 
-#[allow(
+#[expect(
     clippy::trivially_copy_pass_by_ref,
     reason = "serde hands a reference over"
 )]
@@ -148,7 +148,7 @@ pub(super) fn parse(
 }
 
 /// What serde found wrong, with its place.
-#[allow(clippy::needless_pass_by_value, reason = "`map_err` hands errors over")]
+#[expect(clippy::needless_pass_by_value, reason = "`map_err` hands errors over")]
 pub(super) fn fault(e: serde_json::Error) -> Malformed {
     Malformed::new(
         format!("line {} column {}", e.line(), e.column()),

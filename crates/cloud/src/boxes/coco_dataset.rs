@@ -52,7 +52,7 @@ pub struct CocoResult {
     pub label: LabelledBox,
 }
 
-/// What a result file calls an image.
+/// How a result file identifies an image.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, Deserialize)]
 #[serde(untagged)]
 pub enum ImageKey {
@@ -67,9 +67,9 @@ impl CocoDataset {
     ///
     /// # Errors
     ///
-    /// [`CloudError::File`], also for an image without `file_name`, one that stands
-    /// twice, and an annotation of an image that is not listed; [`CloudError::Box`] for a box that is inverted, not
-    /// finite, or outside an image whose size is given.
+    /// [`CloudError::File`], also for an image without `file_name`, one that is
+    /// given twice, and an annotation of an image that is not listed; [`CloudError::Box`] for a box that is inverted,
+    /// not finite, or outside an image whose size is given.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, CloudError> {
         let path = path.as_ref();
         let bytes = pomona_files::read(path)?;
@@ -116,7 +116,7 @@ pub fn read_coco_results(path: impl AsRef<Path>) -> Result<Vec<CocoResult>, Clou
     let path = path.as_ref();
     let bytes = pomona_files::read(path)?;
     let results = parse_results(&bytes).map_err(|fault| fault.at(path))?;
-    // Where their images end is known to whoever knows the images.
+    // The images' sizes are not known here.
     let checked = results.iter().try_for_each(|result| {
         let bounds = &result.label.bounds;
         bounds.touches(usize::MAX, usize::MAX)
@@ -136,7 +136,7 @@ fn parse(bytes: &[u8]) -> Result<CocoDataset, Malformed> {
             return Err(Malformed::new(place(), problem, "name its file"));
         };
         if index_of.insert(image.id, index).is_some() {
-            let problem = format!("the id {} stands twice", image.id);
+            let problem = format!("the id {} is given twice", image.id);
             return Err(Malformed::new(
                 place(),
                 problem,

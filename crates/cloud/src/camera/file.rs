@@ -39,7 +39,7 @@ impl Camera {
         Ok(())
     }
 
-    fn parse(path: &Path, bytes: &[u8]) -> Result<Self, Malformed> {
+    pub(super) fn parse(path: &Path, bytes: &[u8]) -> Result<Self, Malformed> {
         let text = std::str::from_utf8(bytes).map_err(|e| {
             let place = format!("byte {}", e.valid_up_to());
             Malformed::new(

@@ -1,6 +1,8 @@
 use super::*;
+use crate::CloudError;
 use pomona_files::FileError;
 use proptest::prelude::*;
+use std::path::Path;
 
 fn camera(model: &str, coefficients: &[f64]) -> Camera {
     Camera {

@@ -1,10 +1,10 @@
 //! PCD, the Point Cloud Library's format, through `pcd-rs`.
 //!
-//! What `pcd-rs` leaves to us: it trusts the header's counts (memory for any claimed size,
+//! What `pcd-rs` does not do: it trusts the header's counts (memory for any claimed size,
 //! and a panic where compressed columns are shorter than the header says), so they are
 //! checked against the file first; it reads static records only where a file has exactly
 //! their fields, so [`Record`] picks its fields by name; it takes a packed `rgb` through
-//! f32 text, which turns opaque colours into NaN; and it keeps WIDTH and HEIGHT for us to interpret.
+//! f32 text, which turns opaque colours into NaN; and it does not interpret WIDTH and HEIGHT.
 
 mod record;
 

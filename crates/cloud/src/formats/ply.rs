@@ -1,9 +1,9 @@
 //! PLY, the Stanford polygon format, through `ply-rs-bw`.
 //!
-//! What `ply-rs-bw` leaves to us: a count is compared with the file's size; a property
+//! What `ply-rs-bw` does not do: a count is compared with the file's size; a property
 //! named twice, of which it would keep one and so misread all that follows, is refused;
 //! its grammar of text data knows no `nan`, `inf`, `.5` or `5.`, so text is read here; headers
-//! with other than UTF-8 comments, blank lines or old Macintosh line ends are made plain first.
+//! with other than UTF-8 comments, blank lines or old Macintosh line ends are normalised first.
 //!
 //! PLY has no organised clouds: a comment `pomona organised WIDTH HEIGHT` keeps the size, and
 //! the `obj_info num_cols` and `num_rows` of range scanners are read too, where they make up the points.

@@ -1,5 +1,6 @@
 use super::*;
 use crate::Distortion;
+use crate::PointCloud;
 use pomona_files::FileError;
 
 fn frame() -> Frame {

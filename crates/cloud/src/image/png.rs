@@ -9,8 +9,7 @@ const BITS_PER_BYTE: usize = 8 * 1032;
 
 type PngReader<'a> = Reader<Cursor<&'a [u8]>>;
 
-// By value, as `map_err` hands errors over.
-#[allow(clippy::needless_pass_by_value)]
+#[expect(clippy::needless_pass_by_value, reason = "`map_err` hands errors over")]
 fn fault(problem: impl ToString) -> Malformed {
     Malformed::new(
         "PNG data",

@@ -1,4 +1,7 @@
+use super::claim::check_claim;
+use super::color::{parse_color, parse_size};
 use super::*;
+use crate::ColorImage;
 use crate::DepthImage;
 use ::png::{BitDepth, ColorType, Encoder};
 

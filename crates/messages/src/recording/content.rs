@@ -168,7 +168,7 @@ fn cylinder(start: &Point3<f64>, end: &Point3<f64>, radius: f64, color: Color) -
 
 fn line(points: Vec<super::foxglove::Vector3>, color: Color) -> Line {
     Line {
-        line_type: 0,
+        kind: 0,
         pose: Pose::from(&Isometry3::identity()),
         thickness: PATH_THICKNESS_M,
         scale_invariant: false,

@@ -221,7 +221,7 @@ pub(super) struct Cylinder {
 pub(super) struct Line {
     /// 0: each point is connected with the next.
     #[serde(rename = "type")]
-    pub(super) line_type: u8,
+    pub(super) kind: u8,
     pub(super) pose: Pose,
     /// Metres, unless it is invariant to scale.
     pub(super) thickness: f64,

@@ -11,7 +11,7 @@ pub struct AppleRecord {
     /// Radius.
     #[cfg_attr(test, schemars(extend("exclusiveMinimum" = 0)))]
     pub radius: f64,
-    /// Points of the box that lie on the surface.
+    /// Number of the readings of the box that lie on the surface.
     pub inliers: usize,
     /// Root mean square of their distances from it.
     #[cfg_attr(test, schemars(range(min = 0.0)))]
@@ -42,7 +42,7 @@ pub struct BranchRecord {
     /// Its unit direction; the opposite one is the same line.
     #[cfg_attr(test, schemars(with = "super::schema::UnitVector"))]
     pub direction: [f64; 3],
-    /// Points that lie on it.
+    /// Number of the points that lie on it.
     pub inliers: usize,
     /// Root mean square of their distances from it.
     #[cfg_attr(test, schemars(range(min = 0.0)))]

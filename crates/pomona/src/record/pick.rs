@@ -46,22 +46,22 @@ pub struct PickRecord {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(test, schemars(with = "super::schema::UnitVector"))]
     pub direction: Option<[f64; 3]>,
-    /// Standard deviation of the direction as an angle, radians.
+    /// Standard deviation of the direction as an angle, radians; method `robust`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(test, schemars(range(min = 0.0)))]
     pub direction_sd: Option<f64>,
-    /// Probability that the direction is at most 20 degrees off.
+    /// Probability that the direction is at most 20 degrees off; below the settings' least it is refused. Method `robust`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(test, schemars(range(min = 0.0, max = 1.0)))]
     pub confidence: Option<f64>,
-    /// Branches that were weighed against each other, the best first.
+    /// Branches that were weighed against each other, the best first; method `robust`.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub candidates: Vec<CandidateRecord>,
     /// For a refusal: unit vector from the apple's centre towards where a camera would see it past what hides it now.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(test, schemars(with = "super::schema::UnitVector"))]
     pub view_from: Option<[f64; 3]>,
-    /// For a refusal, where the settings ask for it: a way to come in that is no branch's.
+    /// For a refusal, where the settings ask for it: a fallback direction, not derived from a branch.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fallback: Option<FallbackRecord>,
     /// Position and direction in the robot's frame, where a transform was given.
@@ -74,7 +74,7 @@ pub struct PickRecord {
     pub timing_ms: StageTimesRecord,
 }
 
-/// A box of the colour image, in pixels.
+/// A box of the colour image, in pixels: `x_min` <= x < `x_max`, and likewise y.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[cfg_attr(test, schemars(deny_unknown_fields, extend("dependentRequired" = { "found_by": ["mark"], "mark": ["found_by"], "merged": ["mark"] })))]
@@ -97,7 +97,7 @@ pub struct BoxRecord {
     pub found: Option<BoxOriginRecord>,
 }
 
-/// Milliseconds of each stage.
+/// Milliseconds of each stage: all that may differ between two runs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[cfg_attr(test, schemars(deny_unknown_fields))]

@@ -1,5 +1,5 @@
 use crate::outcome::{NearestObstacle, PlannedTurn};
-use pomona_approach::{Clearance, Obstacle, Order, Scene, StartPose};
+use pomona_approach::{Clearance, Obstacle, ObstacleMap, Order, StartPose};
 
 /// What was planned for a frame, in the robot's frame.
 #[derive(Clone, Debug)]
@@ -7,7 +7,7 @@ pub struct RobotPlan {
     /// Name of the robot's frame.
     pub frame_id: String,
     /// What is in the way.
-    pub scene: Scene,
+    pub scene: ObstacleMap,
     /// The order, and the approach or refusal of each target.
     pub order: Order,
     /// The id of the pick that each target comes from.

@@ -55,7 +55,7 @@ fn a_scene_replaces_a_scene_and_nothing_else() {
     std::fs::write(&file, "not a folder").unwrap();
     assert!(matches!(
         small_scene(3).write(&file),
-        Err(SceneError::Io { .. })
+        Err(SceneError::File(_))
     ));
     assert_eq!(std::fs::read_to_string(&file).unwrap(), "not a folder");
 }

@@ -2,7 +2,7 @@ use crate::TransformError;
 use crate::schema::MAX_TRANSLATION_M;
 use thiserror::Error;
 
-/// Why a text of another program is no transform.
+/// Why a text of another program is not a transform.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum FormatError {
@@ -16,7 +16,7 @@ pub enum FormatError {
         /// What to do about it.
         remedy: &'static str,
     },
-    /// The numbers are no rigid transform.
+    /// The numbers are not a rigid transform.
     #[error(transparent)]
     Numbers(#[from] TransformError),
     /// A translation so long that its unit is not metres.

@@ -140,7 +140,7 @@ fn named_form<To: FrameTag, From: FrameTag>(
             },
         };
         let bare = name.strip_prefix("--").unwrap_or(name);
-        let twice = || FormatError::new(name, "it stands twice", REMEDY);
+        let twice = || FormatError::new(name, "it is given twice", REMEDY);
         if let Some(at) = OPTIONS.iter().position(|o| *o == bare) {
             if numbers[at].replace(number(value, name, REMEDY)?).is_some() {
                 return Err(twice());

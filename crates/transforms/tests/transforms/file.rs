@@ -216,7 +216,7 @@ fn numbers_are_finite() {
         ] {
             let message = refusal(&text).to_string();
             assert!(
-                message.contains("is no number of JSON; give finite numbers"),
+                message.contains("is not a JSON number; give finite numbers"),
                 "{message}"
             );
         }
@@ -229,7 +229,7 @@ fn numbers_are_finite() {
         ("1.3],", "1.3], info: 1,"),
     ] {
         let message = refusal(&replaced(GOOD, old, new)).to_string();
-        assert!(!message.contains("is no number of JSON"), "{message}");
+        assert!(!message.contains("is not a JSON number"), "{message}");
     }
 }
 

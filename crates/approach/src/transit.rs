@@ -1,9 +1,10 @@
 //! The clearance along a curved path, with nothing missed between two looks.
 
-use crate::body::Body;
-use crate::outline::{Outline, Placed};
-use crate::scene::{Hit, Scene, Shape, View};
-use crate::{ClearanceConfig, Gripper, Path, Stage};
+use crate::obstacles::{Hit, ObstacleFilter};
+use crate::outline::{Outline, PlacedOutline};
+use crate::shape::Shape;
+use crate::swept_volume::SweptVolume;
+use crate::{ClearanceConfig, Gripper, ObstacleMap, Path, Stage};
 
 /// Intervals of a piece over which its speed is bounded by one number.
 const INTERVALS: usize = 12;
@@ -32,17 +33,17 @@ pub(crate) fn floor(least: f64, resolution: f64) -> f64 {
 /// then all slacks between two looks are at least 0. Where any collision will do for an answer, the least
 /// slack is not looked for, only whether one is negative.
 ///
-/// Then the way is gone backwards too: it is at its end, among the branches, that most ways collide.
+/// Then the path is searched backwards: most paths that collide do so at their end, among the branches.
 ///
 /// # Errors
 ///
 /// The first look with a slack under ε.
-pub(crate) fn transit(
+pub(crate) fn nearest(
     path: &Path,
     intervals: &[Interval],
-    open: &Open,
-    scene: &Scene,
-    view: &View<'_>,
+    open: &OpenGripper,
+    scene: &ObstacleMap,
+    filter: &ObstacleFilter<'_>,
     config: &ClearanceConfig,
 ) -> Result<Option<TimedHit>, TimedHit> {
     let resolution = config.resolution_m;
@@ -51,8 +52,8 @@ pub(crate) fn transit(
     let least_slack = |least: &Option<TimedHit>| least.map_or(config.cutoff_m, |(h, _)| h.slack());
     let mut allowance = 0.0;
     let mut first = true;
-    // A way that collides mostly does so near the fruit.
-    let backwards = view.any;
+    // A path that collides mostly does so near the fruit.
+    let backwards = filter.any_collision;
     for number in 0..intervals.len() {
         let interval = if backwards {
             &intervals[intervals.len() - 1 - number]
@@ -82,8 +83,8 @@ pub(crate) fn transit(
             let time = if to > from { from + gone } else { from - gone };
             let pose = path.pose(time);
             let bodies = open.bodies.map(|body| body.moved(&pose));
-            let shape = Shape::with_outline(&bodies, Placed::new(&open.outline, &pose));
-            let hit = scene.nearest(&shape, view, config, ahead);
+            let shape = Shape::with_outline(&bodies, PlacedOutline::new(&open.outline, &pose));
+            let hit = scene.nearest(&shape, filter, config, ahead);
             let slack = hit.map_or(ahead, |h| h.slack());
             if let Some(hit) = hit
                 && slack < least_slack(&least)
@@ -93,7 +94,7 @@ pub(crate) fn transit(
             if slack < resolution {
                 return hit.map_or(Ok(least), |hit| Err((hit, time)));
             }
-            allowance = if view.any {
+            allowance = if filter.any_collision {
                 slack
             } else {
                 slack - floor(least_slack(&least), resolution)
@@ -111,7 +112,7 @@ pub(crate) struct Interval {
 }
 
 /// The intervals of the transit from the start to the pre-grasp.
-pub(crate) fn intervals(path: &Path, open: &Open) -> Vec<Interval> {
+pub(crate) fn intervals(path: &Path, open: &OpenGripper) -> Vec<Interval> {
     let mut intervals = Vec::with_capacity(2 * INTERVALS);
     for piece in path.pieces().iter().filter(|p| p.stage == Stage::Transit) {
         let step = piece.curve.duration_s / INTERVALS as f64;
@@ -127,13 +128,13 @@ pub(crate) fn intervals(path: &Path, open: &Open) -> Vec<Interval> {
 
 /// The open gripper.
 #[derive(Clone, Debug)]
-pub(crate) struct Open {
-    bodies: [Body; 4],
+pub(crate) struct OpenGripper {
+    bodies: [SweptVolume; 4],
     outline: Outline,
     radius_about_tool: f64,
 }
 
-impl Open {
+impl OpenGripper {
     pub(crate) fn of(gripper: &Gripper) -> Self {
         let bodies = gripper.open();
         Self {

@@ -1,23 +1,24 @@
 //! The clearance of the straight stages, as the volumes that they sweep.
 
 use crate::Gripper;
-use crate::body::Body;
-use crate::outline::{Outline, Placed};
-use crate::scene::{Hit, Scene, Shape, View};
-use crate::{ClearanceConfig, Path, Stage};
+use crate::obstacles::{Hit, ObstacleFilter};
+use crate::outline::{Outline, PlacedOutline};
+use crate::shape::Shape;
+use crate::swept_volume::SweptVolume;
+use crate::{ClearanceConfig, ObstacleMap, Path, Stage};
 use nalgebra::{Isometry3, Vector3};
 use pomona_geometry::Sphere;
 
-/// The straight way to the apple and back, in the tool frame at the apple and in the base's.
-pub(crate) struct Straight {
-    bodies: [Body; 4],
-    outline: Placed,
+/// The straight motion to the apple and back, in the tool frame at the apple and in the base's.
+pub(crate) struct StraightMotion {
+    bodies: [SweptVolume; 4],
+    outline: PlacedOutline,
     grasp: Isometry3<f64>,
     back: Vector3<f64>,
     apple: Sphere,
 }
 
-impl Straight {
+impl StraightMotion {
     pub(crate) fn new(
         gripper: &Gripper,
         grasp: Isometry3<f64>,
@@ -27,7 +28,7 @@ impl Straight {
     ) -> Self {
         let swept = gripper.swept(standoff_m.max(retreat_m), apple.radius);
         Self {
-            outline: Placed::new(&Outline::of(&swept), &grasp),
+            outline: PlacedOutline::new(&Outline::of(&swept), &grasp),
             bodies: swept.map(|body| body.moved(&grasp)),
             back: grasp * Vector3::new(-retreat_m, 0.0, 0.0),
             grasp,
@@ -45,18 +46,18 @@ impl Straight {
     /// The hit with the least slack where that is negative.
     pub(crate) fn clearance(
         &self,
-        scene: &Scene,
-        view: &View<'_>,
+        scene: &ObstacleMap,
+        filter: &ObstacleFilter<'_>,
         config: &ClearanceConfig,
     ) -> Result<Option<(Hit, Stage)>, (Hit, Stage)> {
         let shape = Shape::with_outline(&self.bodies, self.outline);
-        let hit = scene.nearest(&shape, view, config, config.cutoff_m);
+        let hit = scene.nearest(&shape, filter, config, config.cutoff_m);
         if let Some(hit) = hit
             && hit.slack() < 0.0
         {
             return Err((hit, Stage::Approach));
         }
-        if let Some(pressed) = scene.pressed(&self.apple, self.back, view, config) {
+        if let Some(pressed) = scene.pressed(&self.apple, self.back, filter, config) {
             return Err((pressed, Stage::Retreat));
         }
         Ok(hit.map(|hit| (hit, Stage::Approach)))
@@ -67,7 +68,7 @@ impl Straight {
         if stage == Stage::Retreat {
             return path.grasp_s();
         }
-        let distance = |body: &Body| body.distance_to_point(&hit.point);
+        let distance = |body: &SweptVolume| body.distance_to_point(&hit.point);
         let nearest = self
             .bodies
             .iter()

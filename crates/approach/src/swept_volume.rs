@@ -6,7 +6,7 @@ use pomona_geometry::Segment;
 /// A rectangle with round edges: the points within `radius` of it. With one side of length 0 it is a
 /// capsule, with both a ball.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Body {
+pub(crate) struct SweptVolume {
     corner: Point3<f64>,
     /// Sides, perpendicular to each other; either may be 0.
     u: Vector3<f64>,
@@ -21,7 +21,7 @@ fn inverse(squared: f64) -> f64 {
     if squared > 0.0 { 1.0 / squared } else { 0.0 }
 }
 
-impl Body {
+impl SweptVolume {
     pub(crate) fn rectangle(
         corner: Point3<f64>,
         u: Vector3<f64>,
@@ -190,15 +190,15 @@ mod tests {
         vector().prop_map(Point3::from)
     }
 
-    fn rectangle() -> impl Strategy<Value = Body> {
+    fn rectangle() -> impl Strategy<Value = SweptVolume> {
         (point(), vector(), vector(), 0.0..2.0f64).prop_filter_map("flat", |(corner, u, v, l)| {
             let v = u.cross(&v).try_normalize(1e-3)? * l;
-            Some(Body::rectangle(corner, u, v, 0.1))
+            Some(SweptVolume::rectangle(corner, u, v, 0.1))
         })
     }
 
     /// The least distance over a lattice of the rectangle's points, and the lattice's step.
-    fn by_lattice(body: &Body, segment: &Segment) -> (f64, f64) {
+    fn by_lattice(body: &SweptVolume, segment: &Segment) -> (f64, f64) {
         const N: usize = 60;
         let mut least = f64::INFINITY;
         for i in 0..=N {
@@ -230,7 +230,7 @@ mod tests {
         #[test]
         fn a_sweep_holds_every_position(a in point(), axis in vector(), l in -1.0..1.0f64, p in point(), share in 0.0..1.0f64) {
             prop_assume!(axis.norm() > 1e-3);
-            let rod = Body::capsule(a, a + axis, 0.05);
+            let rod = SweptVolume::capsule(a, a + axis, 0.05);
             let across = axis.cross(&Vector3::new(0.3, 0.7, 0.2)).normalize() * l;
             for path in [axis * l, across] {
                 let part = rod.moved(&Isometry3::from_parts((path * share).into(), nalgebra::UnitQuaternion::identity()));
@@ -241,7 +241,7 @@ mod tests {
 
     #[test]
     fn distances_by_hand() {
-        let body = Body::rectangle(Point3::origin(), Vector3::x(), Vector3::y(), 0.25);
+        let body = SweptVolume::rectangle(Point3::origin(), Vector3::x(), Vector3::y(), 0.25);
         let line = |a: [f64; 3], b: [f64; 3]| Segment::new(a.into(), b.into()).unwrap();
         assert_eq!(body.distance_to_point(&Point3::new(0.5, 0.5, 1.0)), 0.75);
         assert_eq!(body.distance_to_point(&Point3::new(4.0, 5.0, 0.0)), 4.75);

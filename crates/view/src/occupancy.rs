@@ -3,16 +3,17 @@ use crate::canvas::Point;
 /// Pixels to a cell's side.
 const CELL: f32 = 4.0;
 
-/// How much of a picture a label would hide, for any rectangle at once: a
+/// How much of what is drawn a label would hide, for any rectangle at once: a
 /// summed-area table over square cells (Crow 1984, doi 10.1145/800031.808600).
-pub(crate) struct Ink {
+pub(crate) struct Occupancy {
     columns: usize,
     rows: usize,
-    /// Before [`Ink::settle`] a cell's ink, afterwards the sum above and left of it; one row and column more than cells.
+    /// Before [`Occupancy::integrated`] a cell's weight, afterwards the sum above and left of it; one row and one
+    /// column more than cells.
     sums: Vec<f64>,
 }
 
-impl Ink {
+impl Occupancy {
     pub(crate) fn new(width: usize, height: usize) -> Self {
         let cells = |pixels: usize| pixels.div_ceil(CELL as usize);
         let (columns, rows) = (cells(width), cells(height));
@@ -23,8 +24,8 @@ impl Ink {
         }
     }
 
-    /// Lays ink of this weight on a rectangle (left, top, right, bottom).
-    pub(crate) fn spread(&mut self, rectangle: [f32; 4], weight: f64) {
+    /// Marks a rectangle as occupied with this weight (left, top, right, bottom).
+    pub(crate) fn add_rectangle(&mut self, rectangle: [f32; 4], weight: f64) {
         let [left, top, right, bottom] = self.cells(rectangle);
         for row in top..bottom {
             for column in left..right {
@@ -34,19 +35,19 @@ impl Ink {
         }
     }
 
-    /// Lays ink of this weight along a straight line.
-    pub(crate) fn trace(&mut self, from: Point, to: Point, weight: f64) {
+    /// Marks a straight line as occupied with this weight.
+    pub(crate) fn add_line(&mut self, from: Point, to: Point, weight: f64) {
         let (dx, dy) = (to.x - from.x, to.y - from.y);
         let steps = (dx.hypot(dy) / CELL).ceil().clamp(1.0, 1e4) as u16;
         for step in 0..=steps {
             let t = f32::from(step) / f32::from(steps);
             let (x, y) = (from.x + t * dx, from.y + t * dy);
-            self.spread([x - 1.0, y - 1.0, x + 1.0, y + 1.0], weight);
+            self.add_rectangle([x - 1.0, y - 1.0, x + 1.0, y + 1.0], weight);
         }
     }
 
-    /// Turns the cells into sums; nothing is laid down afterwards.
-    pub(crate) fn settle(mut self) -> Self {
+    /// Turns the cells into sums; nothing is added afterwards.
+    pub(crate) fn integrated(mut self) -> Self {
         for row in 1..=self.rows {
             for column in 1..=self.columns {
                 let at = self.index(column, row);
@@ -59,7 +60,7 @@ impl Ink {
         self
     }
 
-    /// Mean ink under a rectangle, after [`Ink::settle`].
+    /// Mean weight in a rectangle, after [`Occupancy::integrated`].
     pub(crate) fn mean(&self, rectangle: [f32; 4]) -> f64 {
         let [left, top, right, bottom] = self.cells(rectangle);
         let area = right.saturating_sub(left) * bottom.saturating_sub(top);
@@ -93,19 +94,19 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_mean_counts_what_was_spread() {
-        let mut ink = Ink::new(40, 20);
-        ink.spread([0.0, 0.0, 20.0, 20.0], 1.0);
-        ink.spread([8.0, 8.0, 12.0, 12.0], 0.5);
-        ink.trace(
+    fn the_mean_counts_what_was_added() {
+        let mut occupancy = Occupancy::new(40, 20);
+        occupancy.add_rectangle([0.0, 0.0, 20.0, 20.0], 1.0);
+        occupancy.add_rectangle([8.0, 8.0, 12.0, 12.0], 0.5);
+        occupancy.add_line(
             Point::from_xy(f32::NAN, 0.0),
             Point::from_xy(1e30, -4.0),
             0.0,
         );
-        let ink = ink.settle();
-        assert_eq!(ink.mean([0.0, 0.0, 40.0, 20.0]), 0.5);
-        assert_eq!(ink.mean([16.0, 4.0, 24.0, 8.0]), 0.5);
-        assert_eq!(ink.mean([-100.0, -100.0, 1e9, 1e9]), 0.5);
-        assert_eq!(ink.mean([60.0, 4.0, 80.0, 8.0]), 0.0);
+        let occupancy = occupancy.integrated();
+        assert_eq!(occupancy.mean([0.0, 0.0, 40.0, 20.0]), 0.5);
+        assert_eq!(occupancy.mean([16.0, 4.0, 24.0, 8.0]), 0.5);
+        assert_eq!(occupancy.mean([-100.0, -100.0, 1e9, 1e9]), 0.5);
+        assert_eq!(occupancy.mean([60.0, 4.0, 80.0, 8.0]), 0.0);
     }
 }

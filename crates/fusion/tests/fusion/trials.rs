@@ -330,7 +330,7 @@ fn frames_without_apples_are_no_error() {
 #[test]
 fn rendered_orchards_from_three_poses() {
     let (mut together, mut single, mut count) = (0.0, 0.0, 0.0);
-    let mut moved = 0;
+    let (mut moved, mut answered, mut right) = (0, 0, 0);
     for seed in 0..6 {
         let scene = views(3000 + seed);
         let fusion = fused(&scene.frames, &FusionConfig::default());
@@ -339,7 +339,7 @@ fn rendered_orchards_from_three_poses() {
             .iter()
             .filter(|a| a.movement.is_some())
             .count();
-        for truth in &scene.centers {
+        for (truth, true_direction) in scene.centers.iter().zip(&scene.directions) {
             let error = |center: Position<RobotFrame>| (center.point().coords - truth).norm();
             let near = fusion
                 .apples
@@ -358,10 +358,16 @@ fn rendered_orchards_from_three_poses() {
                 together += error(apple.center.position);
                 single += of_frames.iter().sum::<f64>() / of_frames.len() as f64;
                 count += 1.0;
+                if let (Some(fused), Some(true_direction)) = (apple.direction, true_direction) {
+                    let angle = fused.direction.vector().angle(true_direction);
+                    answered += 1;
+                    right += usize::from(angle < 20_f64.to_radians());
+                }
             }
         }
     }
     assert!(count >= 6.0, "{count}");
+    assert!(answered >= 6 && right == answered, "{right} of {answered}");
     assert_eq!(moved, 0);
     assert!(
         together < single,

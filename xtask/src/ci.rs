@@ -35,7 +35,7 @@ const FEATURE_TESTS: [(&str, &str); 3] = [
     ),
     (
         "pomona-messages",
-        "test --package pomona-messages --features mcap --test messages recording",
+        "test --package pomona-messages --features mcap --lib --test messages recording",
     ),
     (
         "pomona-cli",
@@ -214,7 +214,7 @@ mod tests {
             .unwrap();
         assert_eq!(
             lines[after + 1],
-            "cargo test --package pomona-messages --features mcap --test messages recording"
+            "cargo test --package pomona-messages --features mcap --lib --test messages recording"
         );
         assert!(!lines.iter().any(|l| l.contains("pomona-cli")));
     }

@@ -129,7 +129,7 @@ impl PointTree {
             let (left, right) = (index + 1, node.right);
             let d_left = distance(&self.nodes[left as usize].ball);
             let d_right = distance(&self.nodes[right as usize].ball);
-            // The nearer child last, to be looked at first.
+            // The nearer child last, to be visited first.
             let order = if d_left < d_right {
                 [(d_right, right), (d_left, left)]
             } else {

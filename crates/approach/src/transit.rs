@@ -1,4 +1,4 @@
-//! The clearance along a curved path, with nothing missed between two looks.
+//! The clearance along a curved path, with nothing missed between two checks.
 
 use crate::obstacles::{Hit, ObstacleFilter};
 use crate::outline::{Outline, PlacedOutline};

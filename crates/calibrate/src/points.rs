@@ -18,7 +18,7 @@ use search::{LEAST_POINTS, needed, search};
 /// With fewer samples than this, a wrong one may go unnoticed.
 const SAFE_POINTS: usize = 6;
 
-/// Where a camera is that stands still, from places that it saw and the robot touched.
+/// Pose of a fixed camera, from points that it measured and the robot touched.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct PointCalibration {

@@ -44,7 +44,7 @@ pub struct PoseCalibration<Carrier: FrameTag, Other: FrameTag> {
     pub quality: Quality,
 }
 
-/// A camera that stands still, and a target on the flange: `robot_from_camera`, from
+/// A fixed camera and a target on the flange: `robot_from_camera`, from
 /// A X = X B (X the camera's place, A the robot's motions and B those of the target).
 ///
 /// Park's and Daniilidis's solvers each propose models from samples of three in a robust search; the better
@@ -69,7 +69,7 @@ pub fn calibrate_eye_to_hand<R: Rng + ?Sized>(
     )
 }
 
-/// A camera on the flange, and a target that stands still: `flange_from_camera`.
+/// A camera on the flange and a fixed target: `flange_from_camera`.
 ///
 /// It is [`calibrate_eye_to_hand`] seen from the flange; all else is the same.
 ///
@@ -90,7 +90,7 @@ pub fn calibrate_eye_in_hand<R: Rng + ?Sized>(
     )
 }
 
-/// A camera that stands still, and a target on the flange, by A X = Z B: both unknowns at once from the
+/// A fixed camera and a target on the flange, by A X = Z B: both unknowns at once from the
 /// poses themselves, by Shah's solver in the search and the same joint refinement.
 ///
 /// # Errors
@@ -110,7 +110,7 @@ pub fn calibrate_robot_world<R: Rng + ?Sized>(
     )
 }
 
-/// A published solver alone on all samples alike, for a camera that stands still: no search, no refinement,
+/// A published solver alone on all samples alike, for a fixed camera: no search, no refinement,
 /// nothing rejected. For comparisons; `None` where the samples do not determine an answer.
 pub fn solve_without_robustness(
     samples: &[PoseSample],

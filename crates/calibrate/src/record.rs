@@ -19,13 +19,13 @@ pub const RECORD_SCHEMA: &str = "pomona.calibration/1";
 #[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum CalibrationKind {
-    /// A camera that stands still, from point pairs: [`calibrate_points`].
+    /// A fixed camera, from point pairs: [`calibrate_points`].
     Points,
-    /// A camera that stands still and a target on the flange, AX = XB: [`calibrate_eye_to_hand`].
+    /// A fixed camera and a target on the flange, AX = XB: [`calibrate_eye_to_hand`].
     EyeToHand,
-    /// A camera on the flange and a target that stands still, AX = XB: [`calibrate_eye_in_hand`].
+    /// A camera on the flange and a fixed target, AX = XB: [`calibrate_eye_in_hand`].
     EyeInHand,
-    /// A camera that stands still and a target on the flange, AX = ZB: [`calibrate_robot_world`].
+    /// A fixed camera and a target on the flange, AX = ZB: [`calibrate_robot_world`].
     RobotWorld,
 }
 
@@ -61,7 +61,7 @@ pub struct Calibration {
 /// Where the camera is, by what it is fixed to.
 #[derive(Clone, Debug, PartialEq)]
 pub enum CameraTransform {
-    /// It stands still: `robot_from_camera`, which `pomona pick --transform` reads.
+    /// It is fixed: `robot_from_camera`, which `pomona pick --transform` reads.
     OnBase(NamedTransform<RobotFrame, CameraFrame>),
     /// It is on the flange: `flange_from_camera`, to be joined with the flange's pose of the moment.
     OnFlange(NamedTransform<FlangeFrame, CameraFrame>),

@@ -15,7 +15,7 @@ pub enum SceneError {
         /// The names there are.
         known: Vec<&'static str>,
     },
-    /// The folder is there and holds what is not a scene of ours.
+    /// The folder exists and contains files that are not those of a scene.
     #[error(
         "{path}: is no file of a scene and would be lost; name a new folder, an empty one, or one that holds a scene \
          alone"

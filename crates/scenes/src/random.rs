@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 /// What a stream is drawn for; streams of different purposes are independent.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Purpose {
-    /// Where things stand and how large they are.
+    /// Positions and sizes of objects.
     Layout = 1,
     /// Depth noise along the ray, by row.
     Axial,

@@ -60,6 +60,7 @@ mod describe;
 mod error;
 mod file;
 mod names;
+mod other_values;
 mod range;
 pub mod rule;
 mod schema;

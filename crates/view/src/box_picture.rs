@@ -12,7 +12,7 @@ pub enum BoxKind {
     Detected,
     /// A detection that is right: green.
     Found,
-    /// A detection of nothing that is labelled: red.
+    /// A false positive: red.
     Further,
     /// A label that was not found: yellow.
     Missed,

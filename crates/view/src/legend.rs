@@ -43,7 +43,7 @@ impl Entry {
     }
 }
 
-/// What the drawn things mean, in a corner of the picture.
+/// The legend, in a corner of the picture.
 pub(crate) struct Legend {
     entries: Vec<Entry>,
     font: Font,

@@ -2,7 +2,7 @@ use crate::ViewError;
 use nalgebra::{Point3, Vector3};
 use std::f64::consts::PI;
 
-/// From where and how a cloud is looked at.
+/// The viewpoint and projection of a rendering.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Viewpoint {
     eye: Point3<f64>,

@@ -68,7 +68,7 @@ pub(crate) fn explain<R: Rng + ?Sized>(
         .into_iter()
         .flatten()
         .max_by_key(|(_, inliers)| inliers.len())?;
-    // A scale of almost nothing brings all points together.
+    // A scale near zero brings all points together.
     let plausible = (1e-4..1e4).contains(&model.scale);
     (plausible && inliers.len() >= needed(pairs.robot.len())).then(|| wrong_scale(model.scale))
 }

@@ -66,7 +66,7 @@ pub(crate) fn least_squares(
             break;
         }
     }
-    // A normal matrix that cannot be factored belongs to samples that leave something open.
+    // A normal matrix that cannot be factored belongs to samples that do not determine the answer.
     normal.cholesky()?;
     model.is_finite().then_some(model)
 }

@@ -30,10 +30,10 @@ pub(super) struct DetectionArguments {
     /// frame with boxes, or a folder of frames.
     #[arg(long, value_name = "FOLDER", help_heading = HEADING, conflicts_with_all = ["subjects", "methods", "variants", "SettingValues", "calipers"])]
     pub(super) detection: Option<PathBuf>,
-    /// A model to measure (ONNX), or `built-in`; may be repeated. Default: built-in, where no --boxes are given.
+    /// A model to measure (ONNX), or `built-in`; may be repeated. Default: built-in, unless --boxes are given.
     #[arg(long = "model", value_name = "FILE", value_parser = parse_model, requires = "detection", help_heading = HEADING)]
     models: Vec<Model>,
-    /// Boxes that another program found in these images: a COCO result list, a COCO file with scores, or a folder with a
+    /// Detections of another program in these images: a COCO result list, a COCO file with scores, or a folder with a
     /// YOLO or VOC file for each image; may be repeated.
     #[arg(long, value_name = "FILE|FOLDER", requires = "detection", help_heading = HEADING)]
     boxes: Vec<PathBuf>,

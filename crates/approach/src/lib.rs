@@ -99,7 +99,7 @@ pub use error::{ReachLimit, Refusal};
 pub use gripper::Gripper;
 pub use obstacle_map::ObstacleMap;
 pub use order::{Order, Rank, Reason, pick_order};
-pub use path::{Path, Piece, Sample};
+pub use path::{Path, PathPoint, PathSegment};
 pub use planner::Planner;
 pub use point_tree::PointTree;
 pub use pomona_settings::ConfigError;

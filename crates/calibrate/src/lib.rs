@@ -72,8 +72,8 @@ pub use poses::{
 };
 pub use quality::{LeaveOneOut, LeftOut, Quality, Rejection, RejectionCause, SampleQuality};
 pub use record::{
-    Calibration, CalibrationKind, CalibrationRecord, CameraTransform, RECORD_SCHEMA,
-    TransformRecord, calibrate,
+    Calibration, CalibrationKind, CalibrationRecord, CameraMount, RECORD_SCHEMA, TransformRecord,
+    calibrate,
 };
 pub use sample_set::{FrameIds, SAMPLES_SCHEMA, SampleSet, Samples};
 pub use samples::{PointSample, PoseSample};

@@ -1,4 +1,4 @@
-//! `pomona calibrate`: where the camera is, from samples.
+//! `pomona calibrate`: the camera's transform, from samples.
 
 use crate::output_folder::{OutputFolder, RecordFile};
 use crate::terminal::{self, FAINT, GOOD, HEADING, REFUSED, Terminal, one_line};
@@ -119,7 +119,7 @@ pub(crate) fn run(arguments: &CalibrateArguments, terminal: Terminal) -> anyhow:
     ))
 }
 
-/// The transform's file and that of its report, in one folder.
+/// The transform's file and its report, in one folder.
 struct Files {
     folder: OutputFolder,
     transform: String,

@@ -170,7 +170,7 @@ fn pickers(arguments: &EvaluateArguments) -> anyhow::Result<Vec<Named>> {
         let name = stem.to_string_lossy().into_owned();
         if named.iter().any(|other| other.name == name) {
             bail!(
-                "--variant {}: `{name}` stands twice; rename the file",
+                "--variant {}: `{name}` is given twice; rename the file",
                 path.display()
             );
         }
@@ -190,7 +190,7 @@ fn methods(arguments: &EvaluateArguments) -> anyhow::Result<Vec<Picker>> {
         let method = Method::from_name(name)
             .ok_or_else(|| anyhow!("--method {name}: there is no such method"))?;
         if pickers.iter().any(|p| p.config().method == method) {
-            bail!("--method {name} stands twice; give each method once");
+            bail!("--method {name} is given twice; give each method once");
         }
         pickers.push(Picker::new(Config {
             method,
@@ -214,7 +214,7 @@ fn against_truth(
                 |other: &Subject| (&other.suite, &other.name) == (&subject.suite, &subject.name);
             if subjects.iter().any(twice) {
                 bail!(
-                    "{name}: {} of {} stands twice; give each suite and folder once",
+                    "{name}: {} of {} is given twice; give each suite and folder once",
                     subject.name,
                     subject.suite
                 );

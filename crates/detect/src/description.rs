@@ -75,7 +75,7 @@ pub struct ModelDescription {
     pub tile: Option<usize>,
     /// Pixels of the image that neighbouring tiles share.
     pub tile_overlap: Option<usize>,
-    /// Whether a tiled image is also looked at as a whole.
+    /// Whether a tiled image is also processed as a whole.
     pub whole_pass: Option<bool>,
 }
 
@@ -212,7 +212,8 @@ mod tests {
         assert_eq!(description.whole_pass, Some(false));
         // Those are all keys, but for the other spelling of `licence`.
         let unknown = message("zzz = 1");
-        let known = known_keys(&unknown);
+        let list = unknown.split_once("`: ").unwrap().1;
+        let known = known_keys(list.split_once(';').unwrap().0);
         let named = text.lines().filter_map(|line| line.split_once(" = "));
         let named: Vec<&str> = named.map(|(key, _)| key.trim()).collect();
         for key in known.iter().filter(|key| **key != "license") {

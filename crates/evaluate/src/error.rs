@@ -15,7 +15,7 @@ pub enum EvaluateError {
     },
     /// A folder without a truth to measure against.
     #[error(
-        "{path}: no truth.json in it or in its folders; give a frame that knows its truth, or --calipers FILE"
+        "{path}: no truth.json in it or in its folders; give a frame with ground truth, or --calipers FILE"
     )]
     NoTruth {
         /// The folder.

@@ -17,6 +17,10 @@ use std::sync::Arc;
 use summary::Summary;
 
 /// An ONNX file that was read and looks right.
+#[cfg_attr(
+    not(any(feature = "embedded", feature = "onnxruntime")),
+    expect(dead_code, reason = "no inference backend in this build reads it")
+)]
 pub(crate) struct OnnxFile {
     /// Its file, or its name if it is built in.
     pub(crate) name: String,
@@ -73,6 +77,10 @@ impl OnnxFile {
     }
 
     /// What an inference backend says about the model, as an error.
+    #[cfg_attr(
+        not(any(feature = "embedded", feature = "onnxruntime")),
+        expect(dead_code, reason = "no inference backend in this build reads it")
+    )]
     pub(crate) fn refused(&self, runtime: &str, place: &str, said: &str) -> NetworkError {
         let opset = match self.opset {
             Some(opset) => format!("operators of opset {opset}"),

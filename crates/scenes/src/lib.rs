@@ -22,19 +22,23 @@
 //!
 //! # Concepts
 //!
-//! - A [`World`] contains objects in the camera frame (x right, y down, z forward; metres): [`Apple`]s, [`Branch`]es
-//!   along smooth [`Curve`]s, twigs that do not count as branches, [`Leaf`]s, and optionally a backdrop.
-//! - A [`Shot`] renders a [`Scene`] of it: the ray of every pixel ends at the first surface, so that objects occlude
-//!   each other; a [`Sensor`] turns the exact depths into readings.
-//! - A [`Truth`] gives for every apple with a box its position, the nearest branch, the picking direction, and how
-//!   much of apple and branch is visible to the camera, so that a refusal can be judged.
-//! - A [`Suite`] is a named, reproducible list of scenes: all randomness comes from explicit seeds, and the bytes do
-//!   not depend on the number of threads. `lab15` and `lab150` are the paper's laboratory, `repeat474` its repeats
-//!   (`-none`, `-light`, `-dense` with fewer or more leaves), `orchard` random branches, `harsh` the same with a real
-//!   sensor's faults (`-kinect`, `-azure-kinect`, `-d400` with other cameras), `row` whole trees, `demo` a
-//!   demonstration.
+//! - A [`World`] holds shapes in the camera's frame (x right, y down, z
+//!   forward; metres): [`Apple`]s, [`Branch`]es along smooth [`Curve`]s, twigs
+//!   (which are not branches), [`Leaf`]s, and perhaps a backdrop.
+//! - A [`Shot`] takes a [`Scene`] of it: the ray of every pixel stops at the
+//!   first surface, so that objects occlude one another; a
+//!   [`Sensor`] turns the exact depths into readings.
+//! - A [`Truth`] says, for every apple with a box, where it is, which branch is
+//!   nearest, in which direction to pick, and how much of apple and branch the
+//!   camera sees: enough to decide whether a refusal is right.
+//! - A [`Suite`] is a named list of scenes that are the same for everyone:
+//!   all randomness comes from explicit seeds, and the bytes do not depend on
+//!   the number of threads. `lab15` and `lab150` are the paper's lab, `repeat474`
+//!   its repeats (`-none`, `-light`, `-dense` with fewer or more leaves),
+//!   `orchard` random branches, `harsh` the same outdoors (`-kinect`,
+//!   `-azure-kinect`, `-d400` by other cameras), `row` whole trees, `demo` a picture.
 //!
-//! A custom scene, rendered without noise:
+//! A scene of your own, seen by a camera without noise:
 //!
 //! ```
 //! use nalgebra::Point3;
@@ -55,9 +59,9 @@
 //!
 //! # Not here
 //!
-//! Anything that detects apples: the pipeline is evaluated with this crate and must stay unknown to it. Lens
-//! distortion, motion blur and photographic realism: the colours serve detectors of coloured objects and human
-//! viewers.
+//! Anything that finds apples: the pipeline is measured by this crate and
+//! must stay unknown to it. Lens distortion, motion blur and photographic
+//! realism: the colours are there for detectors of coloured shapes and for people.
 //!
 //! # References
 //!

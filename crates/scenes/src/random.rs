@@ -1,4 +1,4 @@
-//! Seeded draws: streams that never share numbers, a normal law, a lattice hash.
+//! Seeded random numbers: independent streams, normal draws, a lattice hash.
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;

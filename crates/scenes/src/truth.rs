@@ -10,7 +10,7 @@ pub const TRUTH_SCHEMA: &str = "pomona.truth/1";
 /// The name of the file in a frame's folder.
 pub const TRUTH_FILE: &str = "truth.json";
 
-/// What a synthetic frame knows about itself: the content of `truth.json`.
+/// The ground truth of a synthetic frame: the content of `truth.json`.
 ///
 /// Lengths in metres, in the camera's frame. What the optional fields hold is
 /// absent where nobody computed it.
@@ -79,7 +79,7 @@ pub struct BranchTruth {
 }
 
 impl Truth {
-    /// A truth without a word about how the frame came about.
+    /// A ground truth without seed, sensor or camera.
     pub fn new(apples: Vec<AppleTruth>) -> Self {
         Self {
             schema: TRUTH_SCHEMA.into(),

@@ -137,6 +137,7 @@ fn shortest(
 
 /// The orientation of a tool along a direction that is not known exactly.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct UncertainToolOrientation {
     /// The orientation. [`singular`](ToolOrientation::singular) says that the reference azimuth was used.
     pub orientation: ToolOrientation,

@@ -67,7 +67,7 @@ pub fn colored_cloud(cloud: &PointCloud, marks: &[CloudMark<'_>]) -> PointCloud 
     }
 }
 
-/// Luminance (ITU-R BT.601), kept off black and white so that it reads as 'the rest'.
+/// Luminance (ITU-R BT.601), kept away from black and white so that it recedes.
 fn grey([r, g, b]: [u8; 3]) -> [u8; 3] {
     let luminance = 0.299 * f32::from(r) + 0.587 * f32::from(g) + 0.114 * f32::from(b);
     [(60.0 + luminance * 150.0 / 255.0).round() as u8; 3]

@@ -1,4 +1,5 @@
-//! Pictures of picks: annotations on the colour image, coloured point clouds, and renderings of clouds.
+//! Pictures of picks: marks drawn over the colour image, coloured clouds, and rendered
+//! pictures of clouds for those without a viewer at hand.
 //!
 //! ```
 //! use nalgebra::Point3;
@@ -26,12 +27,14 @@
 //!
 //! # Concepts
 //!
-//! An [`AppleMark`] describes one apple: a box, and optionally the pixels of its surface and branch, its sphere, its
-//! picking direction, the gripper and its path, a caption, the reason of a refusal. [`Overlay`] draws these on the
-//! image; colours are those of the paper ([`palette`]). A picking direction along the line of sight has no length in
-//! the picture and is drawn with the symbols of physics: ⊙ towards the camera, ⊗ away from it.
+//! An [`AppleMark`] holds what is known of one apple: a box, and perhaps the
+//! pixels of its surface and branch, its sphere, its picking direction, a
+//! gripper's path and the gripper at the apple, a caption, a reason of refusal. [`Overlay`] draws marks over the image;
+//! colours are those of the paper ([`palette`]). A picking direction along
+//! the line of sight has no length in the picture and is drawn as in physics:
+//! ⊙ points towards the camera, ⊗ away from it.
 //!
-//! [`draw_boxes`] draws only boxes, each a [`BoxMark`], and [`picture_sheet`] arranges such pictures on a contact
+//! [`draw_boxes`] draws only boxes, each a [`BoxMark`], and [`contact_sheet`] arranges such pictures on a contact
 //! sheet.
 //!
 //! [`colored_cloud`] colours the points of a cloud in the same way and adds the direction as points, so that any PLY
@@ -40,8 +43,8 @@
 //! Pixels are counted from the centre of the top-left one, which is (0, 0),
 //! as [`pomona_cloud::Camera`] does; a box spans whole pixels,
 //! `x_min <= x < x_max`. Lengths are metres, angles radians. The same input
-//! gives the same picture. Input that cannot be drawn is left out; only an invalid image or viewpoint is a
-//! [`ViewError`].
+//! gives the same picture. Input that cannot be shown is left out of the
+//! picture; only an invalid image or viewpoint is a [`ViewError`].
 //!
 //! # Not here
 //!
@@ -81,5 +84,5 @@ pub use error::ViewError;
 pub use mark::AppleMark;
 pub use overlay::Overlay;
 pub use render::{RenderOptions, render_cloud};
-pub use sheet::{SheetPicture, picture_sheet};
+pub use sheet::{ContactSheetImage, contact_sheet};
 pub use viewpoint::{Projection, Viewpoint};

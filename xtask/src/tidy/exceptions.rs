@@ -11,7 +11,6 @@ pub(super) const CRATES_WITH_CIRCLES: &[&str] = &[
     "pomona",
     "pomona-approach",
     "pomona-cli",
-    "pomona-detect",
     "pomona-fit",
     "pomona-ransac",
 ];

@@ -4,11 +4,11 @@
 //! use nalgebra::Isometry3;
 //! use pomona::{CheckedFrame, Config, Picker, RobotFromCamera};
 //! use pomona_fusion::{FusionConfig, PosedAnswer, fuse};
-//! use pomona_scenes::{Axis, Lab, Orientation, Sensor, Shot};
+//! use pomona_scenes::{CameraAxis, Lab, Orientation, Sensor, Shot};
 //! use pomona_transforms::Transform;
 //!
 //! // One apple below a branch, rendered from two positions 50 mm apart.
-//! let upright = Orientation { axis: Axis::X, degrees: 0 };
+//! let upright = Orientation { axis: CameraAxis::X, degrees: 0 };
 //! let (world, camera) = (Lab::default().world(upright), Shot::paper_camera());
 //! let picker = Picker::new(Config::default())?;
 //! let mut frames = Vec::new();

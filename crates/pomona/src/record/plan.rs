@@ -1,6 +1,6 @@
 use crate::outcome::{ApplePlan, NearestObstacle, PlannedApproach, PlannedTurn};
 use nalgebra::{Isometry3, Vector3};
-use pomona_approach::{Obstacle, Path, Refusal, Sample};
+use pomona_approach::{Obstacle, Path, PathPoint, Refusal};
 use pomona_transforms::canonical_xyzw;
 use serde::{Deserialize, Serialize};
 
@@ -281,7 +281,7 @@ impl From<&PlannedApproach> for ApproachRecord {
 }
 
 impl PathRecord {
-    fn new(path: &Path, samples: &[Sample]) -> Self {
+    fn new(path: &Path, samples: &[PathPoint]) -> Self {
         let pieces = path.pieces().iter().map(|piece| PieceRecord {
             stage: piece.stage.name().to_owned(),
             start_s: piece.start_s,
@@ -299,7 +299,7 @@ impl PathRecord {
 }
 
 /// The samples, each with that of its two quaternions which is nearer to the one before.
-fn sample_records(samples: &[Sample]) -> Vec<SampleRecord> {
+fn sample_records(samples: &[PathPoint]) -> Vec<SampleRecord> {
     let mut before: Option<[f64; 4]> = None;
     let records = samples.iter().map(|sample| {
         let q: [f64; 4] = sample.rotation.coords.into();

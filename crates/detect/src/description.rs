@@ -7,7 +7,7 @@ use crate::{
     names::nearest,
 };
 use pomona_network::{
-    ChannelOrder, ModelFault, NetworkError, Padding, Preparation, TilingChoice, TilingOptions,
+    ChannelOrder, Malformed, NetworkError, Padding, Preparation, TilingChoice, TilingOptions,
 };
 use serde::Deserialize;
 use std::{
@@ -117,9 +117,14 @@ impl ModelDescription {
             };
             let key = key.map_or_else(String::new, |key| format!(", `{key}`"));
             let problem = error.message().trim().replace('\n', " ");
-            ModelFault::new(format!("line {line}{key}"), problem, remedy).at(origin)
+            NetworkError::model(
+                origin,
+                Malformed::new(format!("line {line}{key}"), problem, remedy),
+            )
         })?;
-        description.check().map_err(|fault| fault.at(origin))?;
+        description
+            .check()
+            .map_err(|fault| NetworkError::model(origin, fault))?;
         Ok(description)
     }
 
@@ -147,7 +152,7 @@ impl ModelDescription {
     }
 
     /// Refuses values that make no sense for any model.
-    pub(crate) fn check(&self) -> Result<(), ModelFault> {
+    pub(crate) fn check(&self) -> Result<(), Malformed> {
         let refused = [
             self.classes.as_deref().and_then(values::class_names),
             self.input_size.and_then(values::input_size),

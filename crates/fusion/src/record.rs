@@ -1,8 +1,5 @@
 //! What `fused.json` holds, made from the typed result.
 
-#[cfg(test)]
-mod schema;
-
 use crate::answer::{
     DirectionUse, FrameShift, FusedApple, FusedFrame, FusedObservation, FusedStatus, FusedTree,
     Movement, PositionUse,
@@ -50,7 +47,6 @@ pub struct FusedFrameRecord {
     /// Shift of all apples of the frame from the first frame, at the centroid of the tree: sway of the tree, or an error of
     /// the poses. Absent for the first frame and where no apple is shared.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[cfg_attr(test, schemars(with = "ShiftRecord"))]
     pub shift: Option<ShiftRecord>,
 }
 
@@ -108,34 +104,32 @@ pub struct FusedAppleRecord {
     pub radius_sd: f64,
     /// Direction of approach, a unit vector.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[cfg_attr(test, schemars(schema_with = "schema::unit_vector"))]
+    #[cfg_attr(test, schemars(with = "pomona_schema::UnitVector"))]
     pub direction: Option<[f64; 3]>,
     /// Standard deviation of the direction as an angle.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[cfg_attr(test, schemars(with = "f64", range(min = 0)))]
+    #[cfg_attr(test, schemars(range(min = 0)))]
     pub direction_sd: Option<f64>,
     /// Probability that the direction is at most 20 degrees off.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[cfg_attr(test, schemars(with = "f64", range(min = 0, max = 1)))]
+    #[cfg_attr(test, schemars(range(min = 0, max = 1)))]
     pub confidence: Option<f64>,
     /// Where status and confidence come from, in words.
     pub reason: String,
     /// Foot of the perpendicular from the centre on the branch.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[cfg_attr(test, schemars(with = "[f64; 3]"))]
     pub foot: Option<[f64; 3]>,
     /// Orientation of a tool that approaches along its +x axis, x y z w with w ≥ 0.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[cfg_attr(test, schemars(schema_with = "schema::quaternion"))]
+    #[cfg_attr(test, schemars(with = "pomona_schema::UnitQuaternion"))]
     pub quaternion_xyzw: Option<[f64; 4]>,
     /// A movement of this apple between frames, beyond the shift that all have in common.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[cfg_attr(test, schemars(with = "MovedRecord"))]
     pub moved: Option<MovedRecord>,
     /// For an apple without a direction: unit vectors from its centre towards where a camera would see it less occluded,
     /// one for each frame that says so.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    #[cfg_attr(test, schemars(schema_with = "schema::unit_vectors"))]
+    #[cfg_attr(test, schemars(with = "Vec<pomona_schema::UnitVector>"))]
     pub view_from: Vec<[f64; 3]>,
     /// The frames' observations of it, in the order of the frames.
     #[cfg_attr(test, schemars(length(min = 1)))]
@@ -184,7 +178,7 @@ pub struct SightingRecord {
     pub direction: DirectionUse,
     /// Angle of its direction to the fused one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[cfg_attr(test, schemars(with = "f64", range(min = 0)))]
+    #[cfg_attr(test, schemars(range(min = 0)))]
     pub direction_off: Option<f64>,
 }
 
@@ -275,5 +269,15 @@ impl From<&FusedObservation> for SightingRecord {
             direction: observation.direction_use,
             direction_off: observation.direction_offset_rad,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_schema_in_the_docs_is_that_of_the_types() {
+        pomona_schema::assert_in_docs::<FusedRecord>(FUSED_SCHEMA, "fused.schema.json");
     }
 }

@@ -36,7 +36,7 @@
 //!     element: Element::F32,
 //! };
 //! let network = Box::new(Redder([port("image", 3), port("wood", 1)]));
-//! let network = ImageNetwork::new(network, [8, 8], Preparation::default()).map_err(|fault| fault.at("redder"))?;
+//! let network = ImageNetwork::new(network, [8, 8], Preparation::default()).map_err(|fault| NetworkError::model("redder", fault))?;
 //!
 //! // A brown post, 4 pixels wide, before grass; only the tiles in which it can be are run.
 //! let mut image = ColorImage::filled(32, 8, [60, 120, 60]);
@@ -94,7 +94,6 @@
 //! - Protocol Buffers documentation, Encoding.
 
 mod error;
-mod fault;
 mod image_input;
 mod image_network;
 mod letterbox;
@@ -109,11 +108,11 @@ mod tiling;
 mod tiling_choice;
 
 pub use error::NetworkError;
-pub use fault::ModelFault;
 pub use image_input::{LARGEST_INPUT_SIDE, input_size};
 pub use image_network::{ImageNetwork, check_image};
 pub use letterbox::Letterbox;
 pub use network::{Network, RuntimeReport};
+pub use pomona_files::Malformed;
 pub use preparation::{ChannelOrder, Padding, Preparation};
 pub use runtime::{RuntimeChoice, open_network};
 pub use source::ModelSource;

@@ -9,6 +9,7 @@ const LAYERS: &[&[&str]] = &[
     &[
         "pomona-ransac",
         "pomona-geometry",
+        "pomona-schema",
         "pomona-settings",
         "pomona-files",
         "pomona-statistics",

@@ -2,7 +2,7 @@
 
 use crate::binary::{Run, pomona};
 use pomona_cloud::Camera;
-use pomona_scenes::{Axis, Lab, Orientation, Sensor, Shot};
+use pomona_scenes::{CameraAxis, Lab, Orientation, Sensor, Shot};
 use serde_json::Value;
 use std::path::Path;
 
@@ -27,7 +27,7 @@ fn write_frame(folder: &Path) {
         ..Lab::default()
     };
     let upright = Orientation {
-        axis: Axis::X,
+        axis: CameraAxis::X,
         degrees: 0,
     };
     let scene = Shot::new("large", camera, Sensor::paper(), 1).take(&lab.world(upright));

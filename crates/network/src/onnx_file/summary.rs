@@ -1,8 +1,6 @@
 use super::protobuf::{Damage, Field, Fields};
-use crate::{
-    fault::ModelFault,
-    tensor::{Element, Port, element_count},
-};
+use crate::tensor::{Element, Port, element_count};
+use pomona_files::Malformed;
 use std::collections::{BTreeSet, HashSet};
 
 /// What an ONNX file says about itself: its ports, and where else its weights are.
@@ -24,7 +22,7 @@ const AGAIN: &str = "export or download it again";
 
 impl Summary {
     /// Reads a file's content.
-    pub(super) fn parse(bytes: &[u8]) -> Result<Self, ModelFault> {
+    pub(super) fn parse(bytes: &[u8]) -> Result<Self, Malformed> {
         let mut reading = Reading::default();
         let read = Fields::new(bytes).try_for_each(|field| reading.model_field(&field?));
         match read {
@@ -40,7 +38,7 @@ struct Reading {
     summary: Summary,
     /// Names of the weights: old files list them as inputs too.
     weights: HashSet<String>,
-    fault: Option<ModelFault>,
+    fault: Option<Malformed>,
     has_version: bool,
     has_graph: bool,
 }
@@ -116,7 +114,7 @@ impl Reading {
             let count = axes.and_then(|axes| element_count(&axes));
             let wanted = count.and_then(|count| count.checked_mul(size));
             if wanted != Some(bytes) && self.fault.is_none() {
-                self.fault = Some(ModelFault::new(
+                self.fault = Some(Malformed::new(
                     format!("weights `{name}`"),
                     format!("are {shape:?} of {size} bytes each, but {bytes} bytes are there"),
                     AGAIN,
@@ -127,15 +125,15 @@ impl Reading {
         Ok(())
     }
 
-    fn fault_of(&self, damage: Damage, length: usize) -> ModelFault {
+    fn fault_of(&self, damage: Damage, length: usize) -> Malformed {
         let place = |at: usize| format!("byte {at} of {length}");
         match damage {
-            Damage::Short(at) if self.has_version => ModelFault::new(
+            Damage::Short(at) if self.has_version => Malformed::new(
                 place(at),
                 "the file ends in the middle: it is truncated",
                 AGAIN,
             ),
-            Damage::Foreign(at) if self.has_graph => ModelFault::new(
+            Damage::Foreign(at) if self.has_graph => Malformed::new(
                 place(at),
                 "what stands there is no part of a model: the file is damaged",
                 AGAIN,
@@ -144,11 +142,11 @@ impl Reading {
         }
     }
 
-    fn finish(mut self) -> Result<Summary, ModelFault> {
+    fn finish(mut self) -> Result<Summary, Malformed> {
         if !self.has_graph {
             return Err(if self.has_version {
                 let problem = "no network in it: it is truncated or was never finished";
-                ModelFault::new("end of the file", problem, AGAIN)
+                Malformed::new("end of the file", problem, AGAIN)
             } else {
                 foreign("whole file".to_owned())
             });
@@ -164,8 +162,8 @@ impl Reading {
     }
 }
 
-fn foreign(place: String) -> ModelFault {
-    ModelFault::new(
+fn foreign(place: String) -> Malformed {
+    Malformed::new(
         place,
         "is not an ONNX model",
         "give a model exported as ONNX",

@@ -31,7 +31,7 @@ pub struct PoseRecord {
     /// Place of the origin.
     pub position: [f64; 3],
     /// Orientation of the axes, x y z w with w ≥ 0.
-    #[cfg_attr(test, schemars(with = "super::schema::UnitQuaternion"))]
+    #[cfg_attr(test, schemars(with = "pomona_schema::UnitQuaternion"))]
     pub quaternion_xyzw: [f64; 4],
 }
 
@@ -99,7 +99,7 @@ pub struct ApproachRecord {
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct WayRecord {
     /// Direction of approach, a unit vector: the pick's, tilted.
-    #[cfg_attr(test, schemars(with = "super::schema::UnitVector"))]
+    #[cfg_attr(test, schemars(with = "pomona_schema::UnitVector"))]
     pub direction: [f64; 3],
     /// Which candidate direction it comes from.
     pub candidate: usize,
@@ -148,7 +148,7 @@ pub struct PathRecord {
 #[cfg_attr(test, schemars(deny_unknown_fields))]
 pub struct PieceRecord {
     /// `transit`, `approach` or `retreat`.
-    #[cfg_attr(test, schemars(with = "super::schema::StageName"))]
+    #[cfg_attr(test, schemars(extend("enum" = ["transit", "approach", "retreat"])))]
     pub stage: String,
     /// When it begins.
     #[cfg_attr(test, schemars(range(min = 0.0)))]
@@ -175,7 +175,7 @@ pub struct SampleRecord {
     /// Per second squared.
     pub acceleration: [f64; 3],
     /// Orientation, x y z w; of the two signs the one nearer to the sample before.
-    #[cfg_attr(test, schemars(with = "super::schema::UnitQuaternion"))]
+    #[cfg_attr(test, schemars(with = "pomona_schema::UnitQuaternion"))]
     pub quaternion_xyzw: [f64; 4],
     /// Radians per second, in the robot's frame.
     pub angular_velocity: [f64; 3],
@@ -202,7 +202,7 @@ pub struct ClearanceRecord {
     #[cfg_attr(test, schemars(range(min = 0.0)))]
     pub time_s: f64,
     /// `transit`, `approach` or `retreat`.
-    #[cfg_attr(test, schemars(with = "super::schema::StageName"))]
+    #[cfg_attr(test, schemars(extend("enum" = ["transit", "approach", "retreat"])))]
     pub stage: String,
 }
 

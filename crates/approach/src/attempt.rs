@@ -1,4 +1,4 @@
-//! One approach that is tried.
+//! One candidate approach.
 
 use crate::collision_check::CollisionCheck;
 use crate::obstacles::ObstacleFilter;
@@ -31,7 +31,7 @@ pub(crate) struct Attempt<'a> {
     pub(crate) tried: usize,
 }
 
-/// The poses between which the gripper moves straight.
+/// The poses between which the gripper moves in a straight line.
 struct Poses {
     grasp: Isometry3<f64>,
     pre_grasp: Isometry3<f64>,
@@ -183,8 +183,7 @@ impl Attempt<'_> {
         (0..REACH_SAMPLES).try_for_each(|i| self.reached(&path.place(i as f64 * step)))
     }
 
-    /// The places between start and pre-grasp to try: none; then, without a tilt, one before the fruit, from
-    /// where the base looks.
+    /// The intermediate waypoints to try: none; then, without a tilt, one between the base and the pre-grasp.
     fn detours(&self, pre_grasp: &Isometry3<f64>) -> Vec<Vec<Point3<f64>>> {
         let mut detours = vec![Vec::new()];
         if self.direction != self.nominal {

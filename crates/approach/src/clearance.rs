@@ -1,8 +1,8 @@
-/// What the gripper comes near to.
+/// An obstacle in the way of the gripper.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Obstacle {
     /// An apple, its sphere or the points of the cloud on it, by its number in the scene; also the
-    /// target itself, before the gripper is about it.
+    /// target itself, before the gripper encloses it.
     Apple(usize),
     /// A branch, by its number in the scene.
     Branch(usize),
@@ -32,10 +32,11 @@ impl Stage {
     }
 }
 
-/// How near the gripper, or the apple in it, comes to what is in the way; metres and seconds.
+/// Smallest distance of the gripper, or of the apple in it, from an obstacle; metres and seconds.
 ///
-/// Of all obstacles it is the one that comes nearest to (or farthest below) its own margin.
+/// It is that of the obstacle with the least slack: distance less margin.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Clearance {
     /// Signed distance of the surfaces, negative where they overlap.
     ///
@@ -43,16 +44,16 @@ pub struct Clearance {
     /// or 0.3 of what is left beyond the margin. Where nothing comes within the configured cutoff, it
     /// is 0.7 of the cutoff, less the depth to which the cloud may be entered.
     pub distance_m: f64,
-    /// The least distance that was asked for from this obstacle.
+    /// The distance required from this obstacle.
     pub margin_m: f64,
     /// The obstacle; `None` where nothing comes within the cutoff.
     pub obstacle: Option<Obstacle>,
     /// The obstacle's point (on its axis, at its centre, or in the cloud) that is nearest, in the
     /// base's frame; for no obstacle, where the tool is then.
     pub point_m: [f64; 3],
-    /// When, since the start of the path.
+    /// Time since the start of the path.
     pub time_s: f64,
-    /// During which stage.
+    /// The stage at that time.
     pub stage: Stage,
 }
 

@@ -5,7 +5,7 @@ use crate::straight_motion::StraightMotion;
 use crate::transit::{self, OpenGripper};
 use crate::{Clearance, ClearanceConfig, Gripper, ObstacleMap, Path, Stage};
 
-/// Looks for collisions of one gripper.
+/// Collision checks of one gripper among the obstacles of one frame.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct CollisionCheck<'a> {
     pub(crate) gripper: &'a Gripper,

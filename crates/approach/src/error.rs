@@ -45,7 +45,7 @@ pub enum Refusal {
         /// The first place found beyond it, in the base's frame.
         point_m: [f64; 3],
     },
-    /// The gripper would come nearer to something than its margin allows.
+    /// The gripper would come closer to an obstacle than its margin allows.
     #[error("the gripper comes within {:.4} m of something at {:?}", .0.distance_m, .0.point_m)]
     Collision(Clearance),
     /// The apple does not fit between the fingers, or not before the palm.

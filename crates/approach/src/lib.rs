@@ -32,34 +32,30 @@
 //!
 //! # Concepts
 //!
-//! - All places and directions are those of one frame, the robot's base: z up, the base at its
-//!   origin, metres, radians, seconds.
-//! - The *tool frame* has its origin, the tool centre point, between the fingers where the apple's
-//!   centre comes to rest; the gripper approaches along +x and opens along ±y. A [`Gripper`] is
-//!   two fingers, a palm and a wrist, each a capsule (a rod with round ends).
+//! - All positions and directions are in the robot's base frame: z up, metres, radians, seconds.
+//! - The *tool frame* has its origin, the tool centre point, between the fingers, where the apple's centre comes to
+//!   rest; the gripper approaches along +x and opens along ±y. A [`Gripper`] is two fingers, a palm and a wrist, each
+//!   a capsule.
 //! - A [`Target`] is an apple with one or more directions OC, from its centre to the foot of the
-//!   perpendicular on its branch. The gripper moves *along* +OC: from the fruit's far side
-//!   towards the branch (Gao et al. 2022, Section 2.2.5).
-//! - A [`Path`] has three stages: the transit from where the tool is to the pre-grasp, a standoff
-//!   before the apple; the straight final approach; the straight retreat. It is made of
-//!   [`Quintic`]s that agree in position, velocity and acceleration where they meet. The source
-//!   says that its path is a polynomial, and gives neither degree nor coefficients; five is the
-//!   least degree that takes all three at both ends.
+//!   perpendicular on its branch. The gripper moves *along* +OC, from the far side of the fruit towards the branch
+//!   (Gao et al. 2022, Section 2.2.5).
+//! - A [`Path`] has three stages: the transit from the current pose to the pre-grasp, a standoff before the apple;
+//!   the straight final approach; the straight retreat. It is made of [`Quintic`]s that agree in position, velocity
+//!   and acceleration where they meet. The paper calls its path a polynomial, but gives neither degree nor
+//!   coefficients; five is the lowest degree that matches all three at both ends.
 //! - A [`ObstacleMap`] holds the obstacles: apples, branches of the extent that was seen, and the
 //!   points of the cloud that neither explains. [`Clearance`] is the signed distance of the
-//!   gripper from the nearest of these along the whole path, not at samples of it: between
-//!   samples it is bounded by the speed of the gripper's fastest point, and the straight stages are
-//!   tested as the volumes that they sweep.
-//! - A [`Planner`] tries the directions in their order, each with tilts within its uncertainty and
-//!   with the allowed rolls, and answers with the first [`Approach`] that is free, or with the
-//!   [`Refusal`] of the first one tried.
-//! - [`pick_order`] ranks the targets of a frame, and says why.
+//!   gripper from the nearest of these along the whole path, not only at samples: between samples it is bounded by
+//!   the speed of the gripper's fastest point, and the straight stages are tested as swept volumes.
+//! - A [`Planner`] tries the directions in order, each with tilts within its uncertainty and with the allowed rolls,
+//!   and returns the first [`Approach`] that is free, or the [`Refusal`] of the first one tried.
+//! - [`pick_order`] ranks the targets of a frame, with reasons.
 //!
 //! # Not here
 //!
-//! How the apple was found; the arm's joints (a pose within reach may still have no solution or one
-//! in which the arm touches something); what the camera has not seen, which is nowhere an
-//! obstacle; the forces of the grasp; files and messages of robots' programs.
+//! How the apple was found; the arm's joints (a pose within reach may have no inverse-kinematics solution, or one in
+//! which the arm collides); what the camera has not seen, which is never an obstacle; grasp forces; files and
+//! messages of robot programs.
 //!
 //! # References
 //!
@@ -72,7 +68,7 @@
 //!   California, Section 2.3.2: conservative advancement.
 //! - Ericson 2005, "Real-Time Collision Detection", Section 5.1.9: distance of two segments.
 //! - Farouki 2012, "The Bernstein polynomial basis", CAGD 29(6), 379–419,
-//!   doi 10.1016/j.cagd.2012.03.001: a polynomial lies within its coefficients' hull.
+//!   doi 10.1016/j.cagd.2012.03.001: a polynomial lies within the hull of its coefficients.
 
 mod approach;
 mod attempt;
@@ -103,7 +99,7 @@ pub use error::{ReachLimit, Refusal};
 pub use gripper::Gripper;
 pub use obstacle_map::ObstacleMap;
 pub use order::{Order, Rank, Reason, pick_order};
-pub use path::{Path, Piece, Sample};
+pub use path::{Path, PathPoint, PathSegment};
 pub use planner::Planner;
 pub use point_tree::PointTree;
 pub use pomona_settings::ConfigError;

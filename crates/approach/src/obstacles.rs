@@ -7,7 +7,7 @@ use crate::{ClearanceConfig, Obstacle, ObstacleMap};
 use nalgebra::{Point3, Vector3};
 use pomona_geometry::Sphere;
 
-/// The nearest obstacle, by what is left beyond its margin.
+/// The nearest obstacle, by its slack.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Hit {
     pub(crate) distance: f64,
@@ -32,11 +32,11 @@ pub(crate) struct ObstacleFilter<'a> {
     pub(crate) target: usize,
     /// Whether its sphere does.
     pub(crate) target_counts: bool,
-    /// Apples that are gone, by number; the target never is.
+    /// Apples that have been picked already, by number; never the target.
     pub(crate) gone: &'a [bool],
     /// Whether branches and the cloud count.
     pub(crate) wood_counts: bool,
-    /// Whether any collision will do for an answer, in place of the nearest obstacle.
+    /// Whether any collision ends the search, which then need not find the nearest obstacle.
     pub(crate) any_collision: bool,
 }
 
@@ -131,8 +131,7 @@ impl ObstacleMap {
         best
     }
 
-    /// The obstacle into which a ball that is moved by `path` presses by more than where it
-    /// starts, and than its margin allows.
+    /// The obstacle that a ball moved by `path` penetrates deeper than at its start and than the margin allows.
     pub(crate) fn pressed(
         &self,
         ball: &Sphere,

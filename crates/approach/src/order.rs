@@ -3,12 +3,12 @@ use crate::{Approach, ObstacleMap, Planner, Refusal, StartPose, Target};
 /// Why a target has its rank.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reason {
-    /// Its approach is free as the frame is. Among these the surer direction goes first, then the larger
-    /// clearance.
+    /// Its approach is free with every apple in place. Among these the one with the higher confidence goes first, then
+    /// the one with the larger clearance.
     Unobstructed,
     /// Its approach is free once the apples before it are gone.
     AfterBlockers,
-    /// It blocks what blocks it: of such a circle, the one that comes least too near to the others
+    /// It is part of a cycle of apples that block one another: of such a cycle, the one that violates its margins least
     /// goes first. Its approach is *not* free; its clearance says by how much.
     CycleBroken,
 }
@@ -26,17 +26,19 @@ impl Reason {
 
 /// The place of one target in the order.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Rank {
     /// Index of the target among those given.
     pub target: usize,
-    /// Why it stands here.
+    /// Why it has this rank.
     pub reason: Reason,
     /// Indices of the targets that block it, in ascending order.
     pub blockers: Vec<usize>,
 }
 
-/// In which order to pick the targets of a frame, and how each.
+/// The picking order of a frame's targets, and the approach to each.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Order {
     /// The targets that can be picked, in picking order.
     pub ranks: Vec<Rank>,
@@ -46,14 +48,13 @@ pub struct Order {
     pub approaches: Vec<Result<Approach, Refusal>>,
 }
 
-/// The order of picking: reachable, unobstructed, confident first; what blocks goes before what it
-/// blocks.
+/// The picking order: reachable, unobstructed and confident targets first; blockers before what they block.
 ///
 /// Each target is planned with everything in place. One that collides is planned again without the
 /// other targets that can be picked themselves; where that succeeds, those that its approach touches are
 /// its blockers. A target is ranked when all its blockers are; of those ready, the unobstructed one,
 /// then the one with the higher confidence, then the larger slack, then the lower index goes first.
-/// Where none is ready, blockers form circles, and the target with the greatest slack from its
+/// Where none is ready, blockers form cycles, and the target with the greatest slack from its
 /// blockers goes next as [`Reason::CycleBroken`].
 pub fn pick_order(
     planner: &Planner,
@@ -74,8 +75,8 @@ pub fn pick_order(
     Order { ranks, approaches }
 }
 
-/// Plans the blocked targets without the others that can be picked, until that changes nothing: a
-/// target that stays refused is in the way of the others for good.
+/// Plans the blocked targets without the others that can be picked, until nothing changes: a target that stays refused
+/// remains an obstacle to the others.
 fn plan_without_blockers(
     planner: &Planner,
     scene: &ObstacleMap,

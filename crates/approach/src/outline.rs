@@ -1,4 +1,4 @@
-//! The gripper in its own frame, where its distance from a point takes few steps.
+//! The gripper in its own frame, where its distance from a point is cheap.
 
 use crate::swept_volume::SweptVolume;
 use nalgebra::{Isometry3, Matrix3, Point3, Vector3};
@@ -15,7 +15,7 @@ struct Part {
 /// The parts of a gripper, open or swept, in the tool frame.
 ///
 /// All of them lie in the plane of the fingers with their sides along x and y, and the second finger is the first
-/// one's mirror image. So three rectangles stand for four bodies, and the nearest place of each is a matter of
+/// one's mirror image. So three rectangles represent four volumes, and the nearest point of each is found by
 /// comparing coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Outline([Part; 3]);

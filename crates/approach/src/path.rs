@@ -5,24 +5,26 @@ use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector1, Vector3};
 const PEAK_SPEED: f64 = 1.875;
 /// Its peak acceleration, in lengths per squared duration: 10/√3.
 const PEAK_ACCELERATION: f64 = 5.773_502_691_896_258;
-/// No leg is shorter, seconds: what does not move still takes a moment.
+/// Shortest duration of a segment, seconds, also where the tool does not move.
 const SHORTEST_S: f64 = 0.05;
 
-/// A part of a path: one polynomial of degree five for the tool's place.
+/// A segment of a path: one polynomial of degree five for the tool's position.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Piece {
-    /// What it is part of.
+#[non_exhaustive]
+pub struct PathSegment {
+    /// The stage to which it belongs.
     pub stage: Stage,
     /// When it begins, seconds since the start of the path.
     pub start_s: f64,
-    /// The place of the tool's origin in the base's frame, metres; its time begins at
+    /// The position of the tool's origin in the base's frame, metres; its time is counted from
     /// `start_s`.
     pub curve: Quintic<3>,
 }
 
 /// Where the tool is at one time, in the base's frame; metres, radians, seconds.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sample {
+#[non_exhaustive]
+pub struct PathPoint {
     /// Time since the start of the path.
     pub time_s: f64,
     /// Place of the tool's origin.
@@ -37,7 +39,7 @@ pub struct Sample {
     pub angular_velocity: Vector3<f64>,
 }
 
-impl Sample {
+impl PathPoint {
     /// The pose of the tool frame.
     pub fn pose(&self) -> Isometry3<f64> {
         Isometry3::from_parts(self.position.coords.into(), self.rotation)
@@ -46,11 +48,11 @@ impl Sample {
 
 /// The motion of a tool from its start to the pre-grasp, to the apple and back.
 ///
-/// Place, velocity and acceleration are continuous. The orientation turns about one axis during the
-/// transit, by a quintic of time from rest to rest, and is fixed from the pre-grasp on.
+/// Position, velocity and acceleration are continuous. The orientation rotates about one axis during the
+/// transit, as a quintic in time from rest to rest, and is fixed from the pre-grasp on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Path {
-    pieces: Vec<Piece>,
+    pieces: Vec<PathSegment>,
     start_rotation: UnitQuaternion<f64>,
     /// Axis times angle of the turn from there to the grasp, in the start's axes.
     turn: Vector3<f64>,
@@ -60,7 +62,7 @@ pub struct Path {
     grasp_s: f64,
 }
 
-/// The places that a path passes.
+/// The waypoints of a path.
 pub(crate) struct Waypoints {
     pub(crate) start: Isometry3<f64>,
     /// Between start and pre-grasp.
@@ -91,7 +93,7 @@ impl Path {
         let mut pieces = Vec::with_capacity(legs.len() + 2);
         let mut time = 0.0;
         let mut push = |stage, curve: Quintic<3>| {
-            pieces.push(Piece {
+            pieces.push(PathSegment {
                 stage,
                 start_s: time,
                 curve,
@@ -141,7 +143,7 @@ impl Path {
     }
 
     /// Its parts in their order.
-    pub fn pieces(&self) -> &[Piece] {
+    pub fn pieces(&self) -> &[PathSegment] {
         &self.pieces
     }
 
@@ -173,7 +175,7 @@ impl Path {
     }
 
     /// Where the tool is at a time; before the start and after the end it rests there.
-    pub fn sample(&self, time_s: f64) -> Sample {
+    pub fn sample(&self, time_s: f64) -> PathPoint {
         let time_s = time_s.clamp(0.0, self.duration_s());
         let later = self.pieces.partition_point(|piece| piece.start_s <= time_s);
         let piece = &self.pieces[later.saturating_sub(1)];
@@ -184,7 +186,7 @@ impl Path {
         } else {
             (1.0, 0.0)
         };
-        Sample {
+        PathPoint {
             time_s,
             position: state.position.into(),
             velocity: state.velocity,
@@ -194,7 +196,7 @@ impl Path {
         }
     }
 
-    /// The place alone at a time, as [`Path::sample`] gives it.
+    /// Only the position at a time, as [`Path::sample`] gives it.
     pub(crate) fn place(&self, time_s: f64) -> Point3<f64> {
         let time_s = time_s.clamp(0.0, self.duration_s());
         let later = self.pieces.partition_point(|piece| piece.start_s <= time_s);
@@ -202,7 +204,7 @@ impl Path {
         piece.curve.position(time_s - piece.start_s).into()
     }
 
-    /// The pose alone at a time, as [`Path::sample`] gives it.
+    /// Only the pose at a time, as [`Path::sample`] gives it.
     pub(crate) fn pose(&self, time_s: f64) -> Isometry3<f64> {
         let share = if time_s < self.pre_grasp_s {
             self.share.position(time_s.max(0.0)).x
@@ -216,7 +218,7 @@ impl Path {
     }
 
     /// `count` samples at equal steps from the start to the end; at least two.
-    pub fn samples(&self, count: usize) -> Vec<Sample> {
+    pub fn samples(&self, count: usize) -> Vec<PathPoint> {
         let count = count.max(2);
         let step = self.duration_s() / (count - 1) as f64;
         (0..count).map(|i| self.sample(i as f64 * step)).collect()
@@ -226,7 +228,7 @@ impl Path {
     /// one piece.
     pub(crate) fn point_speed_bound(
         &self,
-        piece: &Piece,
+        piece: &PathSegment,
         from_s: f64,
         to_s: f64,
         radius: f64,
@@ -308,7 +310,7 @@ fn transit(
     answer
 }
 
-/// The largest acceleration at 33 times.
+/// The largest acceleration of 33 samples.
 fn hardest(leg: &Quintic<3>) -> f64 {
     (0..=32)
         .map(|i| {

@@ -34,8 +34,7 @@ impl Ball {
     }
 }
 
-/// Points of a cloud, held by balls, and those by a tree of balls: the lookup of what is near a
-/// gripper.
+/// Points of a cloud in balls, and these in a tree of balls, for distance queries near a gripper.
 ///
 /// A distance to the tree is a lower bound of that to its points: a ball is one cell's points, and
 /// reaches beyond them by up to its radius.
@@ -74,12 +73,12 @@ impl PointTree {
         Self { balls, nodes }
     }
 
-    /// How many balls the points are held by.
+    /// Number of balls.
     pub fn len(&self) -> usize {
         self.balls.len()
     }
 
-    /// Whether it holds nothing.
+    /// Whether it is empty.
     pub fn is_empty(&self) -> bool {
         self.balls.is_empty()
     }
@@ -129,7 +128,7 @@ impl PointTree {
             let (left, right) = (index + 1, node.right);
             let d_left = distance(&self.nodes[left as usize].ball);
             let d_right = distance(&self.nodes[right as usize].ball);
-            // The nearer child last, to be looked at first.
+            // The nearer child last, to be visited first.
             let order = if d_left < d_right {
                 [(d_right, right), (d_left, left)]
             } else {
@@ -181,7 +180,7 @@ struct Cell {
     count: usize,
 }
 
-/// A hash of a cell's three numbers: nobody chooses them to collide, and a frame has a hundred thousand points.
+/// A hash of a cell's three indices: fast, since a frame has a hundred thousand points; the input is not adversarial.
 #[derive(Clone, Copy, Default)]
 struct CellHasher(u64);
 
@@ -207,7 +206,7 @@ impl Hasher for CellHasher {
     }
 }
 
-/// The largest whole number that is not larger, as `floor` gives it, without its call.
+/// `floor` as an integer, without a function call.
 fn floor(x: f64) -> i32 {
     let whole = x as i32;
     whole.saturating_sub(i32::from(f64::from(whole) > x))

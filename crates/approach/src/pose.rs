@@ -12,7 +12,7 @@ pub fn tool_rotation(direction: &Direction<RobotFrame>, roll_rad: f64) -> UnitQu
     base * UnitQuaternion::from_axis_angle(&Vector3::x_axis(), roll_rad)
 }
 
-/// The orientation whose fingers stand to both sides of a branch with direction `branch`: the tool's
+/// The orientation with the fingers on either side of a branch with direction `branch`: the tool's
 /// y, along which it opens, is perpendicular to both. `None` where the branch runs along the
 /// approach within 0.1 rad, or is not finite.
 pub(crate) fn aligned(
@@ -31,8 +31,8 @@ pub(crate) fn aligned(
     ))
 }
 
-/// The same gripper turned by half a turn about its axis: of both, which look alike, the one nearer
-/// to `reference`.
+/// Of the orientation and the same turned by half a turn about the approach, which are equivalent for the gripper, the
+/// one nearer to `reference`.
 pub(crate) fn nearer_half_turn(
     rotation: UnitQuaternion<f64>,
     reference: &UnitQuaternion<f64>,

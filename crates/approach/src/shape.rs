@@ -1,4 +1,4 @@
-//! What is held against the obstacles: a gripper, or the apple in it.
+//! What is tested against the obstacles: a gripper, or the apple in it.
 
 use crate::outline::PlacedOutline;
 use crate::point_tree::{Ball, PointTree};
@@ -6,7 +6,7 @@ use crate::swept_volume::SweptVolume;
 use nalgebra::Point3;
 use pomona_geometry::Segment;
 
-/// The parts of the gripper together with a ball about them.
+/// The parts of the gripper with their bounding sphere.
 pub(crate) struct Shape<'a> {
     volumes: &'a [SweptVolume],
     around: Ball,

@@ -36,10 +36,10 @@ impl StraightMotion {
         }
     }
 
-    /// What comes nearest to the gripper, with the stage.
+    /// The nearest obstacle, with the stage.
     ///
-    /// The approach, closing about the apple, and the retreat sweep one volume; the apple goes back
-    /// in the gripper, and must not press into what it does not touch where it hangs.
+    /// The approach, closing the fingers, and the retreat sweep one volume; the apple moves back in the gripper, and
+    /// must not press into what it does not touch where it hangs.
     ///
     /// # Errors
     ///

@@ -1,10 +1,10 @@
-//! The parts of a gripper, still or swept, and their distances.
+//! The parts of a gripper, at rest or swept along a motion, and their distances.
 
 use nalgebra::{Isometry3, Point3, Vector3};
 use pomona_geometry::Segment;
 
-/// A rectangle with round edges: the points within `radius` of it. With one side of length 0 it is a
-/// capsule, with both a ball.
+/// A sphere-swept rectangle: the points within `radius` of it (Larsen et al. 1999, "Fast Proximity Queries with Swept
+/// Sphere Volumes"). With one side of length 0 it is a capsule, with both a ball.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct SweptVolume {
     corner: Point3<f64>,
@@ -52,10 +52,10 @@ impl SweptVolume {
         }
     }
 
-    /// What the body, a capsule, sweeps while it moves by `path`.
+    /// What this volume, a capsule, sweeps while it moves by `path`.
     ///
-    /// Exact where `path` is parallel or perpendicular to the capsule's axis, which is all that a
-    /// gripper on its straight does.
+    /// Exact where `path` is parallel or perpendicular to the capsule's axis, which holds for a
+    /// gripper in its straight motion.
     pub(crate) fn swept(&self, path: Vector3<f64>) -> Self {
         let along = self.u.dot(&path);
         if along.abs() > 0.5 * self.u.norm() * path.norm() {
@@ -73,7 +73,7 @@ impl SweptVolume {
         self.corner + (self.u + self.v) * 0.5
     }
 
-    /// Distance of the farthest point of the body from its centre.
+    /// Distance of the farthest point from the centre.
     pub(crate) fn reach(&self) -> f64 {
         0.5 * (self.u.norm_squared() + self.v.norm_squared()).sqrt() + self.radius
     }
@@ -84,7 +84,7 @@ impl SweptVolume {
         [c, c + self.u, c + self.u + self.v, c + self.v]
     }
 
-    /// Distance of the body's surface from a point, negative inside.
+    /// Distance of the surface from a point, negative inside.
     #[inline(always)]
     pub(crate) fn distance_to_point(&self, point: &Point3<f64>) -> f64 {
         let w = point - self.corner;
@@ -93,8 +93,8 @@ impl SweptVolume {
         (w - self.u * a - self.v * b).norm() - self.radius
     }
 
-    /// Distance of the body's surface from a segment, and the segment's point nearest to it;
-    /// negative where the segment enters the body, and then no deeper than the radius.
+    /// Distance of the surface from a segment, and the segment's point nearest to it; negative where the segment enters
+    /// the volume, and then no deeper than the radius.
     pub(crate) fn distance_to_segment(&self, segment: &Segment) -> (f64, Point3<f64>) {
         let first = Segment {
             start: self.corner,
@@ -143,7 +143,7 @@ impl SweptVolume {
 
 /// Distance of two segments, and the point of the second that is nearest to the first.
 ///
-/// Ericson 2005, "Real-Time Collision Detection", Section 5.1.9, with points for segments allowed.
+/// Ericson 2005, "Real-Time Collision Detection", Section 5.1.9; segments may have no length.
 pub(crate) fn segment_distance(first: &Segment, second: &Segment) -> (f64, Point3<f64>) {
     let (d1, d2) = (first.end - first.start, second.end - second.start);
     let r = first.start - second.start;

@@ -1,4 +1,4 @@
-//! The clearance along a curved path, with nothing missed between two looks.
+//! The clearance along a curved path, with nothing missed between two samples.
 
 use crate::obstacles::{Hit, ObstacleFilter};
 use crate::outline::{Outline, PlacedOutline};
@@ -6,38 +6,36 @@ use crate::shape::Shape;
 use crate::swept_volume::SweptVolume;
 use crate::{ClearanceConfig, Gripper, ObstacleMap, Path, Stage};
 
-/// Intervals of a piece over which its speed is bounded by one number.
+/// Intervals of a path segment, in each of which one bound on the speed holds.
 const INTERVALS: usize = 12;
 
-/// How far ahead a look sees, in cutoffs: where nothing is near, the next look is that less one cutoff
-/// away.
+/// Range of the distance queries, in cutoffs: where nothing is near, the next sample is that far away, less one cutoff.
 const LOOK_AHEAD: f64 = 3.0;
-/// The share of a slack by which it may be known too small, where that is more than the resolution.
+/// Relative error of a slack that is accepted, where that is more than the resolution.
 const SHARE: f64 = 0.3;
 
-/// The hit with the least slack, and when.
+/// An obstacle, and the time at which it is nearest.
 pub(crate) type TimedHit = (Hit, f64);
 
-/// What the slack is nowhere under, where the least look is `least`.
+/// Lower bound of the slack over the whole path, where the least sampled one is `least`.
 pub(crate) fn floor(least: f64, resolution: f64) -> f64 {
     (least - resolution).min(least * (1.0 - SHARE))
 }
 
-/// What comes nearest during the transit.
+/// The nearest obstacle during the transit.
 ///
 /// Conservative advancement (Mirtich 1996, Section 2.3.2): where the slack is s, no point of the gripper
-/// can use it up before it has moved by s. So the next look may be that much later, by a bound on the
-/// speed of the fastest point. Slacks are wanted to within a resolution ε or a
-/// share of the slack, so a look is taken whenever the [`floor`] of the least slack so far (the cutoff,
-/// while all are above it) might be undercut. A slack under ε is a collision:
-/// then all slacks between two looks are at least 0. Where any collision will do for an answer, the least
-/// slack is not looked for, only whether one is negative.
+/// can touch the obstacle before it has moved by s. So the next sample may be that much later, by a bound on the
+/// speed of the fastest point. Slacks are needed to within a resolution ε or a relative error, so a sample is taken
+/// whenever the slack might fall below the [`floor`] of the least one so far (the cutoff, while all are above it). A
+/// slack under ε is a collision: then all slacks between two samples are at least 0.
 ///
-/// Then the path is searched backwards: most paths that collide do so at their end, among the branches.
+/// Where any collision ends the search, only the sign of the slack matters, and the path is searched backwards: most
+/// paths that collide do so at their end, among the branches.
 ///
 /// # Errors
 ///
-/// The first look with a slack under ε.
+/// The first sample with a slack under ε.
 pub(crate) fn nearest(
     path: &Path,
     intervals: &[Interval],

@@ -40,7 +40,7 @@ pub enum CalibrateError {
     },
     /// A number is not finite.
     #[error(
-        "sample `{id}`: `{field}` holds a number that is not finite; take the sample again, or leave it out"
+        "sample `{id}`: `{field}` contains a number that is not finite; take the sample again, or leave it out"
     )]
     NotFinite {
         /// The sample.
@@ -68,7 +68,7 @@ pub enum CalibrateError {
     },
     /// The robot turned about one axis only.
     #[error(
-        "the motions do not determine the answer: all rotations are about one axis within {across_deg:.1} degrees, and the place along it is free; turn the flange about a second axis as well, by 30 degrees and more"
+        "the motions do not determine the answer: all rotations are about one axis within {across_deg:.1} degrees, and the position along it is undetermined; turn the flange about a second axis as well, by 30 degrees and more"
     )]
     OneAxis {
         /// The largest part of a rotation that is not about that axis, degrees.
@@ -76,7 +76,7 @@ pub enum CalibrateError {
     },
     /// All points lie on a line.
     #[error(
-        "the points do not determine the answer: they lie on one line within {across_mm:.1} mm, and the turn about it is free; take points away from the line, by 100 mm and more"
+        "the points do not determine the answer: they lie on one line within {across_mm:.1} mm, and the rotation about it is undetermined; take points away from the line, by 100 mm and more"
     )]
     Collinear {
         /// Root mean square distance from the line, mm.

@@ -6,7 +6,7 @@
 //! use pomona_transforms::{CameraFrame, Position, RobotFrame, Transform};
 //! use rand_chacha::{ChaCha8Rng, rand_core::SeedableRng};
 //!
-//! // Eight places that the camera saw and the robot touched; one was written down wrongly.
+//! // Eight points that the camera measured and the robot touched; one was recorded wrongly.
 //! let truth = Transform::<RobotFrame, CameraFrame>::from_quaternion([0.0, 0.0, 0.5], [0.5, -0.5, 0.5, -0.5])?;
 //! let mut samples: Vec<PointSample> = (0..8)
 //!     .map(|i| {
@@ -25,10 +25,10 @@
 //!
 //! # Concepts
 //!
-//! - [`PointSample`]: a place seen by the camera and touched by the robot; [`calibrate_points`].
-//! - [`PoseSample`]: the pose of the flange and that of a target. The camera stands still and the target is on
-//!   the flange: [`calibrate_eye_to_hand`], [`calibrate_robot_world`]. The camera is on the flange and the
-//!   target stands still: [`calibrate_eye_in_hand`].
+//! - [`PointSample`]: a point measured by the camera and touched by the robot; [`calibrate_points`].
+//! - [`PoseSample`]: the pose of the flange and that of a target. The camera is fixed and the target is on the
+//!   flange: [`calibrate_eye_to_hand`], [`calibrate_robot_world`]. The camera is on the flange and the target is
+//!   fixed: [`calibrate_eye_in_hand`].
 //! - A [`SampleSet`] is a file of samples, JSON or CSV, keyed by id.
 //! - The answer is an [`UncertainTransform`](pomona_transforms::UncertainTransform) with a 6×6 covariance, and a
 //!   [`Quality`]: residual and weight of every sample, rejected ones with the reason, and the leave-one-out error at
@@ -37,14 +37,14 @@
 //!
 //! # How
 //!
-//! Minimal solvers propose models from three samples each within `pomona-ransac`; the consensus of more than
-//! half is refined jointly, for pose pairs over both unknown transforms on SE(3), with the loss of a Student t,
-//! whose scales (rotation and translation each) are estimated with it. The derivation of the joint
-//! refinement is in `docs/calibration.md`, with a comparison with OpenCV.
+//! Minimal solvers propose hypotheses from three samples within `pomona-ransac`; the consensus of more than half is
+//! refined jointly, for pose pairs over both unknown transforms on SE(3), with the loss of a Student t, whose scales
+//! (rotation and translation each) are estimated with it. The derivation of the joint refinement is in
+//! `docs/calibration.md`, with a comparison with OpenCV.
 //!
 //! # Not here
 //!
-//! Detecting markers and boards in images, moving the robot, intrinsics of cameras, kinematics of arms.
+//! Detecting markers and boards in images, moving the robot, camera intrinsics, arm kinematics.
 //!
 //! # References
 //!
@@ -72,8 +72,8 @@ pub use poses::{
 };
 pub use quality::{LeaveOneOut, LeftOut, Quality, Rejection, RejectionCause, SampleQuality};
 pub use record::{
-    Calibration, CalibrationKind, CalibrationRecord, CameraTransform, RECORD_SCHEMA,
-    TransformRecord, calibrate,
+    Calibration, CalibrationKind, CalibrationRecord, CameraMount, RECORD_SCHEMA, TransformRecord,
+    calibrate,
 };
 pub use sample_set::{FrameIds, SAMPLES_SCHEMA, SampleSet, Samples};
 pub use samples::{PointSample, PoseSample};

@@ -18,7 +18,7 @@ use search::{LEAST_POINTS, needed, search};
 /// With fewer samples than this, a wrong one may go unnoticed.
 const SAFE_POINTS: usize = 6;
 
-/// Where a camera is that stands still, from places that it saw and the robot touched.
+/// Pose of a fixed camera, from points that it measured and the robot touched.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct PointCalibration {
@@ -87,6 +87,9 @@ pub fn calibrate_points<R: Rng + ?Sized>(
     })
 }
 
+/// A scale differs from 1 significantly where it is off by more standard deviations than this.
+const SIGNIFICANT_SIGMAS: f64 = 4.0;
+
 #[derive(Clone, Copy)]
 struct ScaleFound {
     value: f64,
@@ -115,7 +118,7 @@ fn scale(pairs: &PointPairs, fit: &Fit, kept: &[usize]) -> Result<ScaleFound, Ca
         .sum();
     let sigma = fit.sigma_m / squares.sqrt();
     let off = (value - 1.0).abs();
-    if off > diagnosis::SCALE_TOLERANCE && off > 4.0 * sigma {
+    if off > diagnosis::SCALE_TOLERANCE && off > SIGNIFICANT_SIGMAS * sigma {
         return Err(diagnosis::wrong_scale(value));
     }
     Ok(ScaleFound { value, sigma })

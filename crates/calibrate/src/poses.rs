@@ -12,6 +12,7 @@ pub use estimator::PoseSolver;
 pub use motions::MotionSpread;
 
 use crate::quality::{LeaveOneOut, LeftOut, Quality, SampleQuality, rejection, shift_at, spread};
+use crate::robust::MAX_DRAWS;
 use crate::{CalibrateError, Options, PoseSample};
 use estimator::PosePairs;
 use nalgebra::{Isometry3, Matrix6};
@@ -22,7 +23,7 @@ use pomona_transforms::{
 };
 use rand_core::Rng;
 use refine::{Fit, LEAST_POSES};
-use system::{HandEyeModel, Pair, Scale};
+use system::{PosePair, PoseSolution, Scale};
 
 /// With fewer samples than this, a wrong one may go unnoticed.
 const SAFE_POSES: usize = 8;
@@ -44,7 +45,7 @@ pub struct PoseCalibration<Carrier: FrameTag, Other: FrameTag> {
     pub quality: Quality,
 }
 
-/// A camera that stands still, and a target on the flange: `robot_from_camera`, from
+/// A fixed camera and a target on the flange: `robot_from_camera`, from
 /// A X = X B (X the camera's place, A the robot's motions and B those of the target).
 ///
 /// Park's and Daniilidis's solvers each propose models from samples of three in a robust search; the better
@@ -69,7 +70,7 @@ pub fn calibrate_eye_to_hand<R: Rng + ?Sized>(
     )
 }
 
-/// A camera on the flange, and a target that stands still: `flange_from_camera`.
+/// A camera on the flange and a fixed target: `flange_from_camera`.
 ///
 /// It is [`calibrate_eye_to_hand`] seen from the flange; all else is the same.
 ///
@@ -90,7 +91,7 @@ pub fn calibrate_eye_in_hand<R: Rng + ?Sized>(
     )
 }
 
-/// A camera that stands still, and a target on the flange, by A X = Z B: both unknowns at once from the
+/// A fixed camera and a target on the flange, by A X = Z B: both unknowns at once from the
 /// poses themselves, by Shah's solver in the search and the same joint refinement.
 ///
 /// # Errors
@@ -110,15 +111,15 @@ pub fn calibrate_robot_world<R: Rng + ?Sized>(
     )
 }
 
-/// A published solver alone on all samples alike, for a camera that stands still: no search, no refinement,
+/// A published solver alone on all samples alike, for a fixed camera: no search, no refinement,
 /// nothing rejected. For comparisons; `None` where the samples do not determine an answer.
 pub fn solve_without_robustness(
     samples: &[PoseSample],
     solver: PoseSolver,
 ) -> Option<Transform<RobotFrame, CameraFrame>> {
-    let pairs: Vec<Pair> = samples
+    let pairs: Vec<PosePair> = samples
         .iter()
-        .map(|s| Pair {
+        .map(|s| PosePair {
             carrier: s.robot_from_flange.isometry(),
             seen: s.camera_from_target.isometry(),
         })
@@ -136,9 +137,9 @@ fn calibrate<Carrier: FrameTag, Other: FrameTag, R: Rng + ?Sized>(
 ) -> Result<PoseCalibration<Carrier, Other>, CalibrateError> {
     options.check()?;
     crate::samples::check_poses(samples, LEAST_POSES)?;
-    let pairs: Vec<Pair> = samples
+    let pairs: Vec<PosePair> = samples
         .iter()
-        .map(|s| Pair {
+        .map(|s| PosePair {
             carrier: carrier_from_other(s),
             seen: s.camera_from_target.isometry(),
         })
@@ -156,10 +157,10 @@ fn calibrate<Carrier: FrameTag, Other: FrameTag, R: Rng + ?Sized>(
         }
         Err(error) => return Err(error),
     };
-    let kept: Vec<Pair> = inliers.iter().map(|&i| pairs[i]).collect();
+    let kept: Vec<PosePair> = inliers.iter().map(|&i| pairs[i]).collect();
     motions::check(&kept)?;
     let fit = refine::robust(&pairs, &inliers, &model).ok_or(CalibrateError::Undetermined)?;
-    let kept: Vec<Pair> = fit.kept().map(|i| pairs[i]).collect();
+    let kept: Vec<PosePair> = fit.kept().map(|i| pairs[i]).collect();
     let motions = motions::check(&kept)?;
 
     let block = |at: usize| -> Matrix6<f64> { fit.covariance.fixed_view::<6, 6>(at, at).into() };
@@ -185,17 +186,17 @@ fn uncertain<To: FrameTag, From: FrameTag>(
 
 /// The consensus of most samples, over all solvers.
 fn search<R: Rng + ?Sized>(
-    pairs: &[Pair],
+    pairs: &[PosePair],
     solvers: &[PoseSolver],
     tolerance: Scale,
     options: &Options,
     rng: &mut R,
-) -> Result<(PoseSolver, HandEyeModel, Vec<usize>), CalibrateError> {
+) -> Result<(PoseSolver, PoseSolution, Vec<usize>), CalibrateError> {
     let needed = LEAST_POSES.max(pairs.len() / 2 + 1);
     let engine = Ransac::new(Msac::within(1.0))
         .local_optimization(LeastSquares::default())
-        .stopping(FixedCount::new(u64::from(options.hypotheses)).max_draws(20_000));
-    let mut best: Option<(f64, PoseSolver, HandEyeModel, Vec<usize>)> = None;
+        .stopping(FixedCount::new(u64::from(options.hypotheses)).max_draws(MAX_DRAWS));
+    let mut best: Option<(f64, PoseSolver, PoseSolution, Vec<usize>)> = None;
     for &solver in solvers {
         let estimator = PosePairs {
             pairs,
@@ -230,23 +231,23 @@ fn search<R: Rng + ?Sized>(
 /// C Q = X M gives C⁻¹ X = Q M⁻¹: inverting one side is the same as inverting the other, and inverting both
 /// exchanges the two unknowns, which no residual shows.
 fn agrees_inverted<R: Rng + ?Sized>(
-    pairs: &[Pair],
+    pairs: &[PosePair],
     solvers: &[PoseSolver],
     tolerance: Scale,
     options: &Options,
     rng: &mut R,
 ) -> bool {
-    let inverted = pairs.iter().map(|p| Pair {
+    let inverted = pairs.iter().map(|p| PosePair {
         carrier: p.carrier.inverse(),
         seen: p.seen,
     });
-    let inverted: Vec<Pair> = inverted.collect();
+    let inverted: Vec<PosePair> = inverted.collect();
     search(&inverted, solvers, tolerance, options, rng).is_ok()
 }
 
 fn quality<Carrier: FrameTag>(
     samples: &[PoseSample],
-    pairs: &[Pair],
+    pairs: &[PosePair],
     fit: &Fit,
     options: &Options,
     camera: &UncertainTransform<Carrier, CameraFrame>,
@@ -304,7 +305,7 @@ fn quality<Carrier: FrameTag>(
 }
 
 /// The fit without sample `i`; `None` where the rest does not determine it.
-fn left_out(pairs: &[Pair], fit: &Fit, i: usize, options: &Options) -> Option<LeftOut> {
+fn left_out(pairs: &[PosePair], fit: &Fit, i: usize, options: &Options) -> Option<LeftOut> {
     let mut weights = fit.weights.clone();
     weights[i] = 0.0;
     let model = refine::least_squares(pairs, &weights, &fit.model, &fit.noise)?;

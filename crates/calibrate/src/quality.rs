@@ -73,6 +73,7 @@ pub enum RejectionCause {
 
 /// A sample against the calibration that was made without it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct LeftOut {
     /// How far the sample is off in place, m.
     pub translation_m: f64,

@@ -19,13 +19,13 @@ pub const RECORD_SCHEMA: &str = "pomona.calibration/1";
 #[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum CalibrationKind {
-    /// A camera that stands still, from point pairs: [`calibrate_points`].
+    /// A fixed camera, from point pairs: [`calibrate_points`].
     Points,
-    /// A camera that stands still and a target on the flange, AX = XB: [`calibrate_eye_to_hand`].
+    /// A fixed camera and a target on the flange, AX = XB: [`calibrate_eye_to_hand`].
     EyeToHand,
-    /// A camera on the flange and a target that stands still, AX = XB: [`calibrate_eye_in_hand`].
+    /// A camera on the flange and a fixed target, AX = XB: [`calibrate_eye_in_hand`].
     EyeInHand,
-    /// A camera that stands still and a target on the flange, AX = ZB: [`calibrate_robot_world`].
+    /// A fixed camera and a target on the flange, AX = ZB: [`calibrate_robot_world`].
     RobotWorld,
 }
 
@@ -53,21 +53,21 @@ impl CalibrationKind {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Calibration {
     /// Where the camera is.
-    pub camera: CameraTransform,
+    pub camera: CameraMount,
     /// What was found, and how good it is.
     pub record: CalibrationRecord,
 }
 
 /// Where the camera is, by what it is fixed to.
 #[derive(Clone, Debug, PartialEq)]
-pub enum CameraTransform {
-    /// It stands still: `robot_from_camera`, which `pomona pick --transform` reads.
+pub enum CameraMount {
+    /// It is fixed: `robot_from_camera`, which `pomona pick --transform` reads.
     OnBase(NamedTransform<RobotFrame, CameraFrame>),
     /// It is on the flange: `flange_from_camera`, to be joined with the flange's pose of the moment.
     OnFlange(NamedTransform<FlangeFrame, CameraFrame>),
 }
 
-impl CameraTransform {
+impl CameraMount {
     /// Writes the transform's file, as [`NamedTransform::write`] does.
     ///
     /// # Errors
@@ -193,7 +193,7 @@ pub fn calibrate(
             let found = calibrate_points(samples, options, rng)?;
             let camera = TransformRecord::new(&found.camera, names.robot, names.camera);
             Ok(Calibration {
-                camera: CameraTransform::OnBase(named(&found.camera, &camera)),
+                camera: CameraMount::OnBase(named(&found.camera, &camera)),
                 record: CalibrationRecord {
                     schema: RECORD_SCHEMA,
                     kind,
@@ -216,7 +216,7 @@ pub fn calibrate(
             let camera = TransformRecord::new(&found.camera, names.robot, names.camera);
             let target = TransformRecord::new(&found.target, names.flange, names.target);
             Ok(Calibration {
-                camera: CameraTransform::OnBase(named(&found.camera, &camera)),
+                camera: CameraMount::OnBase(named(&found.camera, &camera)),
                 record: of_poses(kind, seed, camera, target, found),
             })
         }
@@ -225,7 +225,7 @@ pub fn calibrate(
             let camera = TransformRecord::new(&found.camera, names.flange, names.camera);
             let target = TransformRecord::new(&found.target, names.robot, names.target);
             Ok(Calibration {
-                camera: CameraTransform::OnFlange(named(&found.camera, &camera)),
+                camera: CameraMount::OnFlange(named(&found.camera, &camera)),
                 record: of_poses(kind, seed, camera, target, found),
             })
         }

@@ -13,6 +13,9 @@ const FREEDOM: f64 = 10.0;
 const GATE_3: f64 = 16.27;
 const GATE_6: f64 = 22.46;
 
+/// Samples drawn at most in a search, degenerate ones included: a limit on the time that useless data take.
+pub(crate) const MAX_DRAWS: u64 = 20_000;
+
 /// Median of the norm of three independent standard normal numbers: the root of the median of χ² with 3 degrees of
 /// freedom, 2.365 974.
 pub(crate) const MEDIAN_NORM_OF_3: f64 = 1.538_172;

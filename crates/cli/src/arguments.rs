@@ -5,25 +5,25 @@ use clap::{ArgAction, ColorChoice, CommandFactory, Parser, Subcommand, value_par
 const EXAMPLES: &str = "\
 Examples:
   pomona scenes demo --out scenes                 write a synthetic frame
-  pomona pick scenes/orchard-demo --out out       how to pick its apples
+  pomona pick scenes/orchard-demo --out out       the picking directions of its apples
   pomona pick frames/* --out out --json           several frames, as JSON
-  pomona detect photos --out boxes                the apples in colour images
-  pomona inspect frames/a out/picks.json          what files hold
+  pomona detect photos --out boxes                the boxes of apples in colour images
+  pomona inspect frames/a out/picks.json          the content of files
   pomona convert frames/a cloud.ply               a frame as a point cloud
 
-Bad input ends with exit code 2 and a message that names the file; nothing half-written stays.";
+Bad input ends with exit code 2 and a message that names the file; no half-written file remains.";
 
 /// Heading of the options that every command takes.
-const EVERYWHERE: &str = "For every command";
+const EVERYWHERE: &str = "Global options";
 
-/// Which way to pick each apple of an RGB-D frame.
+/// Computes the picking direction of each apple in an RGB-D frame.
 #[derive(Debug, Parser)]
 #[command(name = "pomona", version, after_help = EXAMPLES)]
 pub(crate) struct Arguments {
-    /// Log to standard error: -v what is done, -vv details.
+    /// Log to standard error: -v for progress, -vv for details.
     #[arg(short, long, action = ArgAction::Count, global = true, help_heading = EVERYWHERE)]
     verbose: u8,
-    /// Threads to work with; the answers do not depend on it. Default: as many as processors.
+    /// Number of threads; the answers do not depend on it. Default: the number of processors.
     #[arg(long, value_name = "N", global = true, help_heading = EVERYWHERE, value_parser = value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
     /// When to use colours; `auto` respects `NO_COLOR`.
@@ -35,19 +35,19 @@ pub(crate) struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Find the picking direction of each apple.
+    /// Compute the picking direction of each apple.
     Pick(pick::PickArguments),
-    /// Find the apples in colour images.
+    /// Detect apples in colour images.
     Detect(detect::DetectArguments),
-    /// Write synthetic frames with the truth beside them.
+    /// Write synthetic frames with ground truth.
     Scenes(scenes::ScenesArguments),
-    /// Measure methods against truth, fitted radii against calipers, or detectors against labels.
+    /// Measure methods against ground truth, fitted radii against calipers, or detectors against labels.
     Evaluate(evaluate::EvaluateArguments),
-    /// Find where the camera is, from samples of points or poses.
+    /// Calibrate the camera to the robot from samples of points or poses.
     Calibrate(calibrate::CalibrateArguments),
     /// Convert between cloud formats, or a frame to a cloud.
     Convert(convert::ConvertArguments),
-    /// Say what frames, clouds, images and results hold.
+    /// Describe frames, clouds, images and results.
     Inspect(inspect::InspectArguments),
     /// Print the settings as commented TOML.
     Config(config::ConfigArguments),

@@ -1,4 +1,4 @@
-//! `pomona calibrate`: where the camera is, from samples.
+//! `pomona calibrate`: the camera's transform, from samples.
 
 use crate::output_folder::{OutputFolder, RecordFile};
 use crate::terminal::{self, FAINT, GOOD, HEADING, REFUSED, Terminal, one_line};
@@ -17,9 +17,10 @@ Examples:
   pomona calibrate poses.json --kind eye-in-hand --out flange_from_camera.json
   pomona pick frames/a --transform robot_from_camera.json --out out
 
-SAMPLES is JSON or CSV, keyed by id: points that the camera saw and the robot touched, or poses of the flange \
-and of a target that the camera saw; docs/calibration.md tells the forms and how to take them. Beside OUT the \
-record of every sample is written as OUT with .report.json. Samples that do not determine the answer are refused.";
+SAMPLES is JSON or CSV, keyed by id: points measured by the camera and touched by the robot, or poses of the flange \
+and of a target seen by the camera; docs/calibration.md describes the formats and how to take samples. A report on \
+every sample is written beside OUT, with the extension .report.json. Samples that do not determine the answer are \
+refused.";
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
 enum KindName {
@@ -53,16 +54,16 @@ pub(crate) struct CalibrateArguments {
     /// What to calibrate. Default: points for points, eye-to-hand for poses.
     #[arg(long, value_enum)]
     kind: Option<KindName>,
-    /// Where to write the transform; a transform's file of ours is replaced.
+    /// Where to write the transform; an existing transform file is replaced.
     #[arg(short, long, value_name = "FILE")]
     out: PathBuf,
-    /// Distance from the camera to the fruit, metres: where the error is told.
+    /// Distance from the camera to the fruit, metres, at which the error is reported.
     #[arg(long, value_name = "M", default_value_t = Options::default().fruit_distance_m)]
     fruit_distance: f64,
-    /// How far a sample may be off in place and still support an answer, millimetres.
+    /// Largest translation residual of an inlier, millimetres.
     #[arg(long, value_name = "MM", default_value_t = Options::default().translation_tolerance_m * 1e3)]
     tolerance_mm: f64,
-    /// How far a target may be off in rotation and still support an answer, degrees.
+    /// Largest rotation residual of an inlier, degrees.
     #[arg(long, value_name = "DEG", default_value_t = 2.0)]
     tolerance_deg: f64,
     /// Seed of the search.
@@ -77,7 +78,7 @@ pub(crate) struct CalibrateArguments {
     /// Id of the flange's frame, in place of the file's. Default: flange.
     #[arg(long, value_name = "ID")]
     flange_frame: Option<String>,
-    /// Print the record to standard output as JSON in place of the table.
+    /// Print the record to standard output as JSON instead of the table.
     #[arg(long)]
     json: bool,
 }
@@ -118,7 +119,7 @@ pub(crate) fn run(arguments: &CalibrateArguments, terminal: Terminal) -> anyhow:
     ))
 }
 
-/// The transform's file and that of its report, in one folder.
+/// The transform's file and its report, in one folder.
 struct Files {
     folder: OutputFolder,
     transform: String,

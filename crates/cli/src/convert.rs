@@ -9,9 +9,9 @@ const EXAMPLES: &str = "\
 Examples:
   pomona convert cloud.pcd cloud.ply
   pomona convert cloud.ply cloud.pcd --format pcd-binary-compressed
-  pomona convert frames/a a.pcd           a frame's folder as an organised, coloured cloud
+  pomona convert frames/a a.pcd           a frame as an organised, coloured cloud
 
-The format of IN is recognised by its content. OUT is replaced where it exists.";
+The format of IN is recognised by its content. An existing OUT is replaced.";
 
 /// Cloud formats, under the names of the command line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -49,16 +49,16 @@ impl Format {
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct ConvertArguments {
-    /// A cloud (PCD, PLY, XYZ) or a frame's folder.
+    /// A cloud (PCD, PLY, XYZ) or the folder of a frame.
     #[arg(value_name = "IN")]
     input: PathBuf,
     /// The file to write.
     #[arg(value_name = "OUT")]
     output: PathBuf,
-    /// The format to write. Default: by OUT's extension, binary where there is a choice.
+    /// The format to write. Default: from the extension of OUT, binary if there is a choice.
     #[arg(long, value_enum)]
     format: Option<Format>,
-    /// Leave out points that are NaN or infinite; an organised cloud is then no longer one.
+    /// Drop points that are NaN or infinite; an organised cloud becomes unorganised.
     #[arg(long)]
     drop_nan: bool,
 }
@@ -99,7 +99,7 @@ fn finite_part(cloud: &PointCloud) -> PointCloud {
     cloud.select((0..cloud.len()).filter(|&i| is_finite(cloud, i)))
 }
 
-/// Refuses a cloud that holds nothing, and NaN points where they do not stand for pixels without a reading.
+/// Refuses an empty cloud, and NaN points where they do not represent pixels without a reading.
 fn check(cloud: &PointCloud, path: &Path) -> anyhow::Result<()> {
     let path = path.display();
     if cloud.is_empty() {
@@ -126,7 +126,7 @@ fn check(cloud: &PointCloud, path: &Path) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// What a cloud holds, in a few words.
+/// A short description of a cloud.
 fn description(cloud: &PointCloud) -> String {
     let missing = cloud.len() - cloud.finite_points().count();
     let parts = [

@@ -29,7 +29,7 @@ Examples:
   pomona detect photos --runtime embedded --tiles 3x2 --out out
   pomona detect photos --out out --json | jq '.images[].detections | length'
 
-An image is a PNG or a JPEG, a frame's folder (its colour image), or a folder of images or frames.
+An image is a PNG or a JPEG, the folder of a frame (its colour image), or a folder of images or frames.
 
 Bad input ends with exit code 2 and writes nothing.";
 
@@ -58,16 +58,16 @@ pub(crate) struct DetectArguments {
     /// Images, frames, or folders of them.
     #[arg(required = true, value_name = "IMAGE")]
     images: Vec<PathBuf>,
-    /// Where to write. Our own files are replaced.
+    /// Output folder. Files of earlier runs are replaced.
     #[arg(short, long, value_name = "DIR")]
     out: PathBuf,
-    /// How to write the boxes.
+    /// Format of the boxes.
     #[arg(long, value_name = "FORMAT", value_enum, default_value_t)]
     format: Format,
-    /// Print the record to standard output in place of the table.
+    /// Print the record to standard output instead of the table.
     #[arg(long)]
     json: bool,
-    /// Leave the pictures out.
+    /// Do not write pictures.
     #[arg(long)]
     no_picture: bool,
     #[command(flatten)]

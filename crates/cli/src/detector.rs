@@ -13,10 +13,10 @@ const HEADING: &str = "Detector";
 /// Which detector finds the apples of a colour image, for each command that needs one.
 #[derive(Clone, Debug, Args)]
 pub(crate) struct DetectorArguments {
-    /// Model that finds the apples (ONNX; MODEL.toml beside it may describe it), or `built-in`.
+    /// Detection model (ONNX; MODEL.toml beside it may describe it), or `built-in`.
     #[arg(long, value_name = "FILE", default_value = BUILT_IN, value_parser = parse_model, help_heading = HEADING)]
     model: Model,
-    /// Which of the model's classes is an apple, by name or number. Default: by the model's description, else 0.
+    /// Which of the model's classes is an apple, by name or number. Default: from the model's description, else 0.
     #[arg(long, value_name = "NAME|N", value_parser = parse_class, help_heading = HEADING)]
     class: Option<ClassChoice>,
     /// Lowest score of a box, 0 to 1. Default: by the model's description, else 0.25.

@@ -26,13 +26,13 @@ use std::path::{Path, PathBuf};
 
 const EXAMPLES: &str = "\
 Examples:
-  pomona evaluate lab150 --out out                    the paper's fifteen orientations, ten draws each
+  pomona evaluate lab150 --out out                    the paper's fifteen orientations, ten noise draws each
   pomona evaluate lab15 frames/a --out out            suites and frames with truth.json
   pomona evaluate orchard@1000 --method paper --method robust --out out
-                                                      other scenes: those of the seeds 1000, 1001, ...
+                                                      other scenes: seeds 1000, 1001, ...
   pomona evaluate orchard --count 50 --json --out out | jq '.results[].angle.error.mean'
   pomona evaluate orchard --set robust.blocks=12 --out out
-  pomona evaluate orchard --robot --out out           the gripper in the base's frame, after a simulated calibration
+  pomona evaluate orchard --robot --out out           the gripper in the base frame, after a simulated calibration
   pomona evaluate --calipers calipers.csv frames/a frames/b --out out
   pomona evaluate --detection tiles --out out         the built-in model on images with labels
   pomona evaluate --detection tiles --model built-in --model mine.onnx --boxes theirs.json --out out
@@ -40,7 +40,7 @@ Examples:
 
 Writes evaluation.json, apples.csv and report.html into DIR; with --calipers calipers.json and report.html; with \
 --detection detection.json, report.html and a sheet of each detector's worst images, worst-N.png.
-A frame without truth can be evaluated with --calipers only: a CSV with the columns box_name and diameter_mm.";
+A frame without ground truth can only be evaluated with --calipers: a CSV with the columns box_name and diameter_mm.";
 
 /// The results, by their names in the folder.
 const EVALUATION: &str = "evaluation.json";
@@ -52,49 +52,48 @@ const REPORT: &str = "report.html";
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct EvaluateArguments {
-    /// Suites (see `pomona scenes --list`), SUITE@N for their scenes from the seed N on, frames with truth.json, or
+    /// Suites (see `pomona scenes --list`), SUITE@N for scenes from seed N on, frames with truth.json, or
     /// folders of such frames; with --calipers any frames.
     #[arg(required_unless_present = "detection", value_name = "SUITE|FRAME")]
     subjects: Vec<String>,
-    /// Where to write. Our own files are replaced.
+    /// Output folder. Files of earlier runs are replaced.
     #[arg(short, long, value_name = "DIR")]
     out: PathBuf,
-    /// A method; may be repeated, to set methods side by side. Default: that of the settings.
+    /// A method; may be repeated to compare methods. Default: that of the settings.
     #[arg(long = "method", value_name = "NAME", value_parser = PossibleValuesParser::new(Method::ALL.map(Method::name)))]
     methods: Vec<String>,
-    /// Other settings to set beside the methods: a TOML file, whose name without its ending stands for them; may be
-    /// repeated.
+    /// Further settings to compare with the methods: a TOML file, named in the result by its file name without
+    /// extension; may be repeated.
     #[arg(long = "variant", value_name = "FILE")]
     variants: Vec<PathBuf>,
-    /// Seed of the methods, or of the intervals with --detection; scenes have seeds of their own.
+    /// Seed of the methods, or of the intervals with --detection; scenes have their own seeds.
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u64,
-    /// Only so many frames of each suite, or images with --detection, from the first.
+    /// Only the first N frames of each suite, or images with --detection.
     #[arg(long, value_name = "N")]
     count: Option<usize>,
-    /// Measured diameters (CSV), by box name: compares fitted radii with them, and the centres of each
-    /// pair of frames with each other.
+    /// Measured diameters (CSV), by box name: compares fitted radii with them, and the centres of each pair of frames.
     #[arg(long, value_name = "FILE", conflicts_with = "count")]
     calipers: Option<PathBuf>,
-    /// Send a robot to the apples: for each frame a camera is mounted on it and calibrated from noisy samples, the picks
-    /// are planned, and the gripper is compared with the truth in the base's frame. With =FILE a robot's settings
-    /// (see `pomona config --robot`).
+    /// Simulate a robot: for each frame a camera is mounted on it and calibrated from noisy samples, the picks are
+    /// planned, and the gripper is compared with the ground truth in the base frame. With =FILE, the settings of a
+    /// robot (see `pomona config --robot`).
     #[arg(long, value_name = "FILE", num_args = 0..=1, require_equals = true, conflicts_with = "calipers")]
     #[allow(
         clippy::option_option,
         reason = "an option whose value may be left out, as clap has it"
     )]
     robot: Option<Option<PathBuf>>,
-    /// Noise of the calibration's samples in rotation, root mean square of the angle.
+    /// Rotation noise of the calibration samples, root mean square of the angle.
     #[arg(long, value_name = "DEG", default_value_t = 0.2, requires = "robot")]
     calibration_noise_deg: f64,
-    /// Noise of the calibration's samples in place, root mean square of the length.
+    /// Translation noise of the calibration samples, root mean square of the length.
     #[arg(long, value_name = "MM", default_value_t = 1.0, requires = "robot")]
     calibration_noise_mm: f64,
-    /// Samples of the calibration.
+    /// Number of calibration samples.
     #[arg(long, value_name = "N", default_value_t = 15, requires = "robot")]
     calibration_poses: usize,
-    /// Print the result to standard output as JSON in place of the table.
+    /// Print the result to standard output as JSON instead of the table.
     #[arg(long)]
     json: bool,
     #[command(flatten)]
@@ -171,7 +170,7 @@ fn pickers(arguments: &EvaluateArguments) -> anyhow::Result<Vec<Named>> {
         let name = stem.to_string_lossy().into_owned();
         if named.iter().any(|other| other.name == name) {
             bail!(
-                "--variant {}: `{name}` stands twice; rename the file",
+                "--variant {}: `{name}` is given twice; rename the file",
                 path.display()
             );
         }
@@ -191,7 +190,7 @@ fn methods(arguments: &EvaluateArguments) -> anyhow::Result<Vec<Picker>> {
         let method = Method::from_name(name)
             .ok_or_else(|| anyhow!("--method {name}: there is no such method"))?;
         if pickers.iter().any(|p| p.config().method == method) {
-            bail!("--method {name} stands twice; give each method once");
+            bail!("--method {name} is given twice; give each method once");
         }
         pickers.push(Picker::new(Config {
             method,
@@ -215,7 +214,7 @@ fn against_truth(
                 |other: &Subject| (&other.suite, &other.name) == (&subject.suite, &subject.name);
             if subjects.iter().any(twice) {
                 bail!(
-                    "{name}: {} of {} stands twice; give each suite and folder once",
+                    "{name}: {} of {} is given twice; give each suite and folder once",
                     subject.name,
                     subject.suite
                 );

@@ -143,7 +143,7 @@ impl OutputFolder {
     }
 }
 
-/// The files of one run, collected out of sight and put in place together.
+/// The files of one run, written to a hidden folder and published together.
 ///
 /// What is not published disappears again, with the folders that were made for it.
 #[derive(Debug)]
@@ -156,7 +156,7 @@ pub(crate) struct Staging<'a> {
 }
 
 impl Staging<'_> {
-    /// Where to write the file `name` for now.
+    /// The path at which to write the file `name` before it is published.
     pub(crate) fn file(&self, name: &str) -> PathBuf {
         self.part.join(name)
     }
@@ -201,7 +201,7 @@ impl Drop for Staging<'_> {
         if self.published {
             return;
         }
-        // The error that brought us here is the one to report.
+        // The error that led here is the one to report.
         let _ = fs::remove_dir_all(&self.part);
         for folder in self.made.iter().rev() {
             let _ = fs::remove_dir(folder);

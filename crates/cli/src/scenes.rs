@@ -9,13 +9,13 @@ use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
 Examples:
-  pomona scenes --list                        the suites there are
-  pomona scenes lab15 --list                  the scenes of one
+  pomona scenes --list                        the available suites
+  pomona scenes lab15 --list                  the scenes of one suite
   pomona scenes demo --out scenes             one frame of a tree: scenes/orchard-demo
-  pomona scenes lab15 --out scenes --seed 3   another draw of the noise
+  pomona scenes lab15 --out scenes --seed 3   another noise draw
 
-Each scene is a frame's folder with truth.json beside the images. A scene of the same name is replaced; \
-a folder that holds anything else is refused.";
+Each scene is a frame folder with truth.json beside the images. A scene with the same name is replaced; a folder \
+with any other file is refused.";
 
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
@@ -23,13 +23,13 @@ pub(crate) struct ScenesArguments {
     /// Name of the suite.
     #[arg(value_name = "SUITE", required_unless_present = "list")]
     suite: Option<String>,
-    /// Where to write the frames' folders.
+    /// Where to write the frame folders.
     #[arg(short, long, value_name = "DIR", required_unless_present = "list")]
     out: Option<PathBuf>,
     /// Added to the seed of each scene.
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u64,
-    /// Only so many scenes, from the first.
+    /// Only the first N scenes.
     #[arg(long, value_name = "N")]
     count: Option<usize>,
     /// List the suites, or the scenes of SUITE, and write nothing.
@@ -86,7 +86,7 @@ fn suite_list() -> String {
     list
 }
 
-/// The case with another seed; its name says so, so that draws can stand side by side.
+/// The case with another seed, which its name shows, so that several draws fit in one folder.
 fn reseeded(mut case: Case, more: u64) -> Case {
     if more > 0 {
         let seed = case.seed.wrapping_add(more);

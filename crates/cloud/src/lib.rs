@@ -32,13 +32,13 @@
 //!     }]),
 //! };
 //!
-//! // A folder of plain files, there and back.
+//! // Written to a folder and read back.
 //! # let parent = tempfile::tempdir()?;
 //! # let dir = parent.path().join("row-7");
 //! frame.write(&dir)?;
 //! let frame = Frame::read(&dir)?;
 //!
-//! // The points of each box, in one set of buffers.
+//! // The points of each box, in reused buffers.
 //! let mut points = DepthPoints::new();
 //! for pixel_box in frame.boxes.iter().flatten() {
 //!     let window = pixel_box.window(frame.depth.width, frame.depth.height)?;
@@ -57,15 +57,14 @@
 //!
 //! # Concepts
 //!
-//! A [`Frame`] is a colour image, a depth image registered to it, their one [`Camera`], and
-//! perhaps the boxes of the apples in them. Its folder holds `color.png` (or `.jpg`),
-//! `depth.png` (16-bit grey), `camera.json` (or a ROS `CameraInfo` in YAML, or Open3D's
-//! `intrinsic.json`), and `boxes.xml`, `.json` or `.txt` (VOC, COCO, YOLO). [`read_tum`] reads the
-//! other common folder, that of the TUM RGB-D benchmark. A [`CocoDataset`] holds the boxes of many images in one file;
-//! a [`LabelledBox`] is a box with its class.
+//! A [`Frame`] is a colour image, a depth image registered to it, their common [`Camera`], and optionally the
+//! bounding boxes of the apples. Its folder contains `color.png` (or `.jpg`), `depth.png` (16-bit grey),
+//! `camera.json` (or a ROS `CameraInfo` in YAML, or Open3D's `intrinsic.json`), and `boxes.xml`, `.json` or `.txt`
+//! (VOC, COCO, YOLO). [`read_tum`] reads folders of the TUM RGB-D benchmark. A [`CocoDataset`] has the boxes of many
+//! images in one file; a [`LabelledBox`] is a box with its class.
 //!
-//! Lengths are in metres, in the camera's REP-103 optical frame: x right, y down, z forward.
-//! Depth is z, not range; a depth of 0 is 'no reading'. Pixel (0, 0) is the centre of
+//! Lengths are in metres, in the REP-103 optical camera frame: x right, y down, z forward.
+//! Depth is z, not range; a depth of 0 is "no reading". Pixel (0, 0) is the centre of
 //! the top-left pixel.
 //!
 //! Points are kept as separate f32 arrays. [`DepthPoints`] are those of a [`PixelWindow`], each with its
@@ -79,8 +78,8 @@
 //!
 //! # Not here
 //!
-//! Finding apples, in pictures or in clouds; filtering, normals, neighbours and
-//! registration of clouds; rectifying images; video and recordings.
+//! Detecting apples; filtering, normals, neighbours and registration of clouds; rectification of images; video and
+//! recordings.
 //!
 //! # References
 //!

@@ -12,6 +12,7 @@ const DEPTH_SCALE: f64 = 1.0 / 5000.0;
 
 /// One frame of a TUM RGB-D folder: a colour image and the depth image nearest in time.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct TumEntry {
     /// Time of the colour image, in seconds.
     pub time_s: f64,

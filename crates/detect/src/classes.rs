@@ -1,5 +1,5 @@
 use crate::names::nearest;
-use pomona_network::ModelFault;
+use pomona_network::Malformed;
 use serde::Deserialize;
 
 /// Which of the model's classes is an apple.
@@ -109,7 +109,7 @@ pub(crate) fn choose(
     choice: Option<&ClassChoice>,
     names: Option<&[String]>,
     count: Option<usize>,
-) -> Result<usize, ModelFault> {
+) -> Result<usize, Malformed> {
     let names: Vec<&str> = match (names, count) {
         (Some(names), _) => names.iter().map(String::as_str).collect(),
         (None, Some(count)) if count == COCO.len() => COCO.to_vec(),
@@ -118,7 +118,7 @@ pub(crate) fn choose(
     if let (Some(count), false) = (count, names.is_empty())
         && names.len() != count
     {
-        return Err(ModelFault::new(
+        return Err(Malformed::new(
             "`classes`",
             format!("{} names for a model of {count} classes", names.len()),
             "name every class of the model, in its order",
@@ -142,13 +142,13 @@ pub(crate) fn choose(
         Some(ClassChoice::Name(name)) => find(name).ok_or_else(|| {
             let place = format!("class `{name}`");
             if names.is_empty() {
-                ModelFault::new(
+                Malformed::new(
                     place,
                     "the model's classes have no names here",
                     "give the class's number, or list `classes` in the description beside the model",
                 )
             } else {
-                ModelFault::new(
+                Malformed::new(
                     place,
                     format!("none of the {} classes has this name", names.len()),
                     format!("the nearest are {}", nearest(name, &names)),
@@ -180,9 +180,9 @@ pub(crate) fn from_metadata(metadata: &[(String, String)]) -> Option<Vec<String>
 }
 
 /// Whether a model of `count` classes has one of this number; passes where the count is not known.
-pub(crate) fn check(number: usize, count: Option<usize>) -> Result<(), ModelFault> {
+pub(crate) fn check(number: usize, count: Option<usize>) -> Result<(), Malformed> {
     match count {
-        Some(count) if number >= count => Err(ModelFault::new(
+        Some(count) if number >= count => Err(Malformed::new(
             format!("class {number}"),
             format!("the model has {count} classes"),
             format!("give a number from 0 to {}", count.saturating_sub(1)),

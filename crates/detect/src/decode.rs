@@ -15,16 +15,16 @@ pub(crate) use decoder::Decoder;
 pub(crate) use recognise::{class_count, recognise};
 
 use crate::{detection::Detection, family::Family};
-use pomona_network::{ModelFault, Tensor};
+use pomona_network::{Malformed, Tensor};
 
 /// The boxes of the class that counts, from a network's outputs in the order of its ports.
 ///
 /// They are in pixels of the input, in the order of the rows, and not suppressed. What is not a box, with a number that
 /// is not finite or without area, is left out; a score beyond 1 is 1.
-pub(crate) fn decode(decoder: &Decoder, outputs: &[Tensor]) -> Result<Vec<Detection>, ModelFault> {
+pub(crate) fn decode(decoder: &Decoder, outputs: &[Tensor]) -> Result<Vec<Detection>, Malformed> {
     let declared = decoder.ports.len();
     let outputs = outputs.get(..declared).ok_or_else(|| {
-        ModelFault::new(
+        Malformed::new(
             "outputs",
             format!("{} of {declared} came", outputs.len()),
             "export the model again",

@@ -7,7 +7,7 @@ use crate::{
     names::nearest,
 };
 use pomona_network::{
-    ChannelOrder, ModelFault, NetworkError, Padding, Preparation, TilingChoice, TilingOptions,
+    ChannelOrder, Malformed, NetworkError, Padding, Preparation, TilingChoice, TilingOptions,
 };
 use serde::Deserialize;
 use std::{
@@ -75,7 +75,7 @@ pub struct ModelDescription {
     pub tile: Option<usize>,
     /// Pixels of the image that neighbouring tiles share.
     pub tile_overlap: Option<usize>,
-    /// Whether a tiled image is also looked at as a whole.
+    /// Whether a tiled image is also processed as a whole.
     pub whole_pass: Option<bool>,
 }
 
@@ -117,9 +117,14 @@ impl ModelDescription {
             };
             let key = key.map_or_else(String::new, |key| format!(", `{key}`"));
             let problem = error.message().trim().replace('\n', " ");
-            ModelFault::new(format!("line {line}{key}"), problem, remedy).at(origin)
+            NetworkError::model(
+                origin,
+                Malformed::new(format!("line {line}{key}"), problem, remedy),
+            )
         })?;
-        description.check().map_err(|fault| fault.at(origin))?;
+        description
+            .check()
+            .map_err(|fault| NetworkError::model(origin, fault))?;
         Ok(description)
     }
 
@@ -147,7 +152,7 @@ impl ModelDescription {
     }
 
     /// Refuses values that make no sense for any model.
-    pub(crate) fn check(&self) -> Result<(), ModelFault> {
+    pub(crate) fn check(&self) -> Result<(), Malformed> {
         let refused = [
             self.classes.as_deref().and_then(values::class_names),
             self.input_size.and_then(values::input_size),
@@ -212,7 +217,8 @@ mod tests {
         assert_eq!(description.whole_pass, Some(false));
         // Those are all keys, but for the other spelling of `licence`.
         let unknown = message("zzz = 1");
-        let known = known_keys(&unknown);
+        let list = unknown.split_once("`: ").unwrap().1;
+        let known = known_keys(list.split_once(';').unwrap().0);
         let named = text.lines().filter_map(|line| line.split_once(" = "));
         let named: Vec<&str> = named.map(|(key, _)| key.trim()).collect();
         for key in known.iter().filter(|key| **key != "license") {

@@ -3,7 +3,7 @@ use pomona_cloud::{ColorImage, PixelBox};
 use pomona_network::RuntimeReport;
 use serde::Serialize;
 
-/// A box in which a detector sees something.
+/// A box detected in an image.
 ///
 /// Edges in pixels of the image, counted from its left and upper edge: the first pixel spans 0 to 1. A box may
 /// reach beyond the image.
@@ -51,7 +51,7 @@ impl Detection {
     }
 }
 
-/// Finds things in a colour image.
+/// Detects objects in a colour image.
 ///
 /// One detector serves many threads. The same image gives the same detections, best first.
 pub trait Detector: Send + Sync {

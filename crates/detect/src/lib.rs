@@ -1,7 +1,7 @@
 //! Apples in a colour image: ONNX detectors of the YOLO family, run over tiles, decoded and fused, or any other
 //! detector behind one trait.
 //!
-//! A detector of one's own, here one that takes anything red for an apple:
+//! A custom detector, here one that takes anything red for an apple:
 //!
 //! ```
 //! use pomona_cloud::ColorImage;
@@ -14,7 +14,7 @@
 //!         let red = |[r, g, b]: [u8; 3]| r > 150 && g < 80 && b < 80;
 //!         let pixels = image.pixels.iter().enumerate().filter(|(_, pixel)| red(**pixel));
 //!         let places = pixels.map(|(k, _)| (k % image.width, k / image.width));
-//!         // The box around all of them.
+//!         // The box that encloses all of them.
 //!         let around = places.map(|(u, v)| [u, v, u + 1, v + 1]).reduce(|a, b| {
 //!             [a[0].min(b[0]), a[1].min(b[1]), a[2].max(b[2]), a[3].max(b[3])]
 //!         });
@@ -40,24 +40,24 @@
 //!
 //! # Concepts
 //!
-//! - A [`Detector`] takes a colour image and gives [`Detection`]s: box, score and class, in the image's own
-//!   pixels. Implement it for a camera that brings its own network.
+//! - A [`Detector`] returns [`Detection`]s for a colour image: box, score and class, in pixels of the image.
+//!   Implement it for a camera with a network of its own, for example.
 //! - [`DetectorOptions`] open one from an ONNX file, or the built-in one. That is an [`OnnxDetector`]: a
-//!   [`Network`], which `pomona-network` loads and runs over the image's tiles, and what its outputs mean.
+//!   network that `pomona-network` loads and runs over the tiles of the image, and the meaning of its outputs.
 //! - The meaning is recognised from the network's inputs and outputs; a [`ModelDescription`], a small TOML beside
 //!   the model, states what they do not tell, and takes precedence.
-//! - [`fuse`] makes one set of boxes of those of all tiles; [`suppress`] is non-maximum suppression.
+//! - [`fuse`] combines the boxes of all tiles into one set; [`suppress`] is non-maximum suppression.
 //!
 //! | [`Family`] | outputs | meaning |
 //! |---|---|---|
 //! | `yolov3` | 2 or 3 of `[1, A·(5+C), h, w]`, other orders of axes too | logits, with anchors |
-//! | `yolov3-nms` | `[1, N, 4]`, `[1, C, N]`, `[M, 3]`; the ONNX zoo's | corners, scores, rows that its own suppression left |
+//! | `yolov3-nms` | `[1, N, 4]`, `[1, C, N]`, `[M, 3]`; the ONNX zoo's | corners, scores, rows kept by built-in suppression |
 //! | `yolov5`, also v4 and v7 | `[1, N, 5+C]` | centre and size; objectness; classes |
 //! | `yolov8`, also v9 and v11 | `[1, 4+C, N]` | centre and size; classes |
 //! | `yolox` | `[1, N, 5+C]` | the same as v5 relative to the cells |
 //!
-//! A network is never trusted: outputs of another shape are errors that name them, boxes with a number that is
-//! not finite are left out.
+//! Networks are untrusted: outputs with another shape are errors that name them, and boxes with non-finite numbers
+//! are dropped.
 //!
 //! # Not here
 //!

@@ -11,7 +11,8 @@ use crate::{
 };
 use pomona_cloud::{ColorImage, PixelWindow};
 use pomona_network::{
-    ImageNetwork, Letterbox, ModelFault, Network, Tensor, Tiling, check_image, input_size,
+    ImageNetwork, Letterbox, Malformed, Network, NetworkError, Tensor, Tiling, check_image,
+    input_size,
 };
 
 /// Lowest score of a box where neither options nor description say.
@@ -52,12 +53,13 @@ impl OnnxDetector {
         check_share("threshold", options.threshold)?;
         check_share("nms_iou", options.nms_iou)?;
         let recognised = Recognised::new(&*network, description, options);
-        let Recognised { decoder, notes } = recognised.map_err(|fault| fault.at(&*name))?;
+        let Recognised { decoder, notes } =
+            recognised.map_err(|fault| NetworkError::model(&*name, fault))?;
         let tiling = Tiling::new(&description.tiling(options.tiling), decoder.input)?;
         let preparation = description.preparation(decoder.family);
         let network = ImageNetwork::new(network, decoder.input, preparation);
         Ok(Self {
-            network: network.map_err(|fault| fault.at(&*name))?,
+            network: network.map_err(|fault| NetworkError::model(&*name, fault))?,
             name,
             decoder,
             nms_iou: options
@@ -92,7 +94,7 @@ impl OnnxDetector {
         outputs: &[Tensor],
     ) -> Result<View, DetectError> {
         let boxes = decode(&self.decoder, outputs);
-        let mut detections = boxes.map_err(|fault| fault.at(&*self.name))?;
+        let mut detections = boxes.map_err(|fault| NetworkError::model(&*self.name, fault))?;
         let [width, height] = size.map(|side| side as f64);
         for detection in &mut detections {
             let [x_min, y_min] = letterbox.to_image([detection.x_min, detection.y_min]);
@@ -164,7 +166,7 @@ impl Recognised {
         network: &dyn Network,
         description: &ModelDescription,
         options: &DetectorOptions,
-    ) -> Result<Self, ModelFault> {
+    ) -> Result<Self, Malformed> {
         description.check()?;
         let mut description = description.clone();
         if description.classes.is_none() {

@@ -6,7 +6,10 @@ use thiserror::Error;
 #[non_exhaustive]
 pub enum EvaluateError {
     /// It is neither a suite nor a folder.
-    #[error("`{name}` is neither a folder nor a suite; the suites are {}, each also with other scenes as in orchard@1000", .suites.join(", "))]
+    #[error(
+        "`{name}` is neither a folder nor a suite; the suites are {}, each also with other scenes as in orchard@1000",
+        .suites.join(", ")
+    )]
     UnknownSubject {
         /// What was asked for.
         name: String,
@@ -15,7 +18,7 @@ pub enum EvaluateError {
     },
     /// A folder without a truth to measure against.
     #[error(
-        "{path}: no truth.json in it or in its folders; give a frame that knows its truth, or --calipers FILE"
+        "{path}: no truth.json in it or in its folders; give a frame with ground truth, or --calipers FILE"
     )]
     NoTruth {
         /// The folder.

@@ -1,10 +1,10 @@
-//! Methods run over scenes and frames with truth: errors, statistics, tables, plots.
+//! Methods measured on scenes and frames with ground truth: errors, statistics, tables, plots.
 //!
 //! ```
 //! use pomona::{Config, Method, Picker};
 //! use pomona_evaluate::{Subject, evaluate};
 //!
-//! // The first two of the paper's fifteen lab orientations, generated in memory.
+//! // The first two of the paper's fifteen laboratory orientations, rendered in memory.
 //! let subjects = Subject::named("lab15", Some(2))?;
 //! let picker = Picker::new(Config { method: Method::Paper, ..Config::default() })?;
 //!
@@ -19,19 +19,19 @@
 //!
 //! # Concepts
 //!
-//! - A [`Subject`] is one frame with truth: a case of a suite, or a folder.
+//! - A [`Subject`] is one frame with ground truth: a case of a suite, or a folder.
 //! - A [`PickMethod`] answers frames; [`pomona::Picker`] is one.
-//! - [`evaluate`] runs every method over every subject on all cores and gives an
+//! - [`evaluate`] runs every method on every subject on all cores and returns an
 //!   [`Evaluation`]: an [`AppleRow`] for each apple, a [`SuiteResult`] for each suite and method, a
 //!   [`Comparison`] for each pair of methods.
-//! - **Accuracy** is measured against truth, **repeatability** against the mean of a method's own
-//!   answers ([`Repeatability`], the paper's measure); they never share a name.
-//! - **[`Reliability`]** asks whether a method's confidences and standard deviations hold.
+//! - **Accuracy** is measured against ground truth, **repeatability** against the mean of a method's own answers
+//!   ([`Repeatability`], the paper's measure).
+//! - **[`Reliability`]** tests whether a method's confidences and standard deviations are calibrated.
 //! - [`evaluate_with_robot`] also mounts a camera on a robot, calibrates it from noisy samples, and
-//!   measures the gripper in the base's frame: a [`BaseRow`] for each answer, a [`BaseResult`] with the error budget.
-//! - [`report_page`] and [`apples_csv`] are what `report.html` and `apples.csv` hold.
-//! - [`measure_calipers`] sets fitted radii beside measured diameters on real frames, and
-//!   aligns the apples of two frames of one tree.
+//!   measures the gripper in the base frame: a [`BaseRow`] for each answer, a [`BaseResult`] with the error budget.
+//! - [`report_page`] and [`apples_csv`] are the content of `report.html` and `apples.csv`.
+//! - [`measure_calipers`] compares fitted radii with measured diameters on real frames, and aligns the apples of two
+//!   frames of one tree.
 //!
 //! # Not here
 //!

@@ -1,4 +1,4 @@
-//! Whole files, read and written, and errors that name the file, the place in it and the remedy.
+//! Reading and atomic writing of files, and errors that name the file, the location and the remedy.
 //!
 //! ```
 //! use pomona_files::{FileError, Malformed, read, write_atomically};
@@ -25,14 +25,14 @@
 //!
 //! # Concepts
 //!
-//! - A parser works on bytes and returns a [`Malformed`]; whoever knows the file's name turns it into a [`FileError`]
-//!   with [`Malformed::at`].
+//! - A parser works on bytes and returns a [`Malformed`]; the caller, who knows the file's name, turns it into a
+//!   [`FileError`] with [`Malformed::at`].
 //! - [`write_atomically`] writes to a temporary file beside the destination and renames it, so that a reader finds the
 //!   old content or the new one, never a part.
 //!
 //! # Not here
 //!
-//! Any file format; folders of several files, which the commands publish together.
+//! Any file format; folders of several files, which the commands publish as one.
 
 mod atomic;
 mod error;

@@ -11,6 +11,7 @@ use pomona_fit::{
 use pomona_geometry::{Line, Sphere};
 use pomona_ransac::{FixedCount, InlierCount, Ransac, RefitOnce};
 use pomona_scenes::{BranchTruth, Scene, Suite};
+use pomona_statistics::upper_median;
 use rand_chacha::{ChaCha8Rng, rand_core::SeedableRng};
 
 /// Scenes of each suite.
@@ -107,11 +108,6 @@ impl Apple {
     }
 }
 
-fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
-}
-
 /// Times `fit` over all apples in turn, each time with another seed.
 fn run<M>(c: &mut Criterion, name: &str, apples: &[Apple], fit: impl Fn(&Apple, u64) -> Option<M>) {
     let mut seed = 0;
@@ -130,7 +126,8 @@ fn accuracy(name: &str, what: &str, apples: &[Apple], error: impl Fn(&Apple, u64
         .flat_map(|apple| (0..10).map(move |seed| (apple, seed)));
     let errors: Vec<Option<f64>> = tries.map(|(apple, seed)| error(apple, seed)).collect();
     let failures = errors.iter().filter(|error| error.is_none()).count();
-    let found = median(errors.into_iter().flatten().collect());
+    let mut found: Vec<f64> = errors.into_iter().flatten().collect();
+    let found = upper_median(&mut found).unwrap_or(f64::NAN);
     println!("accuracy {name} {what} {found:.2}, {failures} failures");
 }
 

@@ -1,12 +1,12 @@
-//! Primitives fitted to points in space: minimal solvers, least squares,
-//! geometric refinement, and estimators that put them into a RANSAC search.
+//! Geometric primitives fitted to points: minimal solvers, least squares, geometric refinement, and estimators for a
+//! RANSAC search.
 //!
 //! ```
 //! use pomona_fit::{Points, RadiusWindow, SphereEstimator, SphereRefit};
 //! use pomona_ransac::{FixedCount, InlierCount, Ransac, RefitOnce};
 //! use rand_chacha::{ChaCha8Rng, rand_core::SeedableRng};
 //!
-//! // The camera's side of a sphere of 40 mm at 0.8 m, and every fifth point off it.
+//! // The camera's side of a sphere of 40 mm at 0.8 m, every fifth point an outlier.
 //! let (mut x, mut y, mut z) = (vec![], vec![], vec![]);
 //! for i in 0..500 {
 //!     let (s, a) = ((f64::from(i) / 500.0).sqrt(), f64::from(i) * 2.4);
@@ -29,23 +29,25 @@
 //!
 //! # Concepts
 //!
-//! - [`Points`] is a view of three coordinate arrays of `f32` or `f64`; nothing is copied.
-//!   The arithmetic of scoring is done in that type, all fitting in `f64`.
+//! - [`Points`] is a view of three coordinate arrays of `f32` or `f64`; nothing is copied. Scoring uses that type,
+//!   all fitting uses `f64`.
 //! - A solver is a plain function from points to a primitive. A sample or a set that does
 //!   not determine the primitive (coincident, collinear, coplanar, not finite) gives `None`.
-//!   Minimal ones are called `…_through`; the refits `…_geometric` and `…_weighted` take a start and never worsen it.
+//!   Minimal solvers are called `…_through`; the refits `…_geometric` and `…_weighted` take an initial estimate and
+//!   never worsen it.
 //! - An estimator ([`SphereEstimator`], [`LineEstimator`], [`PlaneEstimator`], [`CylinderEstimator`],
-//!   [`CapsuleEstimator`], [`CircleEstimator`]) is the view that `pomona-ransac` works with. What a sphere's
-//!   sample is can be chosen: [`FourPoints`], [`ThreePointsAndRadius`], [`TwoNormals`].
-//! - A [`RadiusPrior`] counts in refits like one more measurement.
-//! - Constraints ([`RadiusWindow`], [`DistanceWindow`], [`AngleWindow`], [`CenterSide`], [`FootSide`]) hold in
-//!   the search, and a refit that breaks one is done again under it: [`HeldRefit`] finds the best fit on the bound.
-//!   [`Refusing`] makes one refuse such a refit instead.
-//! - The covariance in a report is by a shape's local parameters, which its estimator's page names.
+//!   [`CapsuleEstimator`], [`CircleEstimator`]) adapts a primitive to `pomona-ransac`. The minimal sample of a sphere
+//!   can be chosen: [`FourPoints`], [`ThreePointsAndRadius`], [`TwoNormals`].
+//! - A [`RadiusPrior`] enters refits like one additional measurement.
+//! - Constraints ([`RadiusWindow`], [`DistanceWindow`], [`AngleWindow`], [`CenterSide`], [`FootSide`]) hold in the
+//!   search, and a refit that violates one is repeated under it: [`HeldRefit`] finds the best fit on the bound.
+//!   [`Refusing`] rejects such a refit instead.
+//! - The covariance in a report is that of the primitive's local parameters, which the documentation of its estimator
+//!   names.
 //!
 //! # Not here
 //!
-//! Cameras, noise models, what the points belong to.
+//! Cameras, noise models, and the meaning of the points.
 
 mod capsule;
 mod chart;

@@ -1,5 +1,4 @@
-//! Shapes in space, and what a fitting or picking program asks of them:
-//! distances, feet of perpendiculars, angles.
+//! Geometric primitives in space: distances, feet of perpendiculars, angles.
 //!
 //! ```
 //! use nalgebra::{Point3, Vector3};
@@ -8,7 +7,7 @@
 //! let apple = Sphere::new(Point3::new(0.0, 0.0, 0.8), 0.04).unwrap();
 //! let branch = Line::new(Point3::new(-1.0, -0.05, 0.8), Vector3::x()).unwrap();
 //!
-//! // The direction in which to pick: from the centre to the branch's nearest point.
+//! // The picking direction: from the centre to the nearest point of the branch.
 //! let foot = branch.foot(&apple.center);
 //! let direction = (foot - apple.center).normalize();
 //! assert!((direction - Vector3::new(0.0, -1.0, 0.0)).norm() < 1e-12);
@@ -16,16 +15,14 @@
 //!
 //! # Concepts
 //!
-//! Every shape is a plain value of `f64`s whose constructor refuses what is
-//! not that shape (a radius that is not positive, a direction without length,
-//! anything not finite) by returning `None`. Lengths are in one unit
-//! throughout (metres in this project), angles in radians. The shapes belong
-//! to no frame: the caller keeps the points of one frame together.
+//! Every shape is a plain value of `f64`s whose constructor returns `None` for invalid input (a radius that is not
+//! positive, a direction of length zero, anything not finite). Lengths are in one unit throughout (metres in this
+//! project), angles in radians. The primitives carry no coordinate frame: the caller keeps the points of one frame
+//! together.
 //!
 //! # Not here
 //!
-//! Data sets, noise and fitting: those are `pomona-fit`. Rigid transforms
-//! between named frames: those are `pomona-transforms`.
+//! Data sets, noise and fitting are in `pomona-fit`, rigid transforms between named frames in `pomona-transforms`.
 
 mod aabb;
 mod angle;

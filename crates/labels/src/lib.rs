@@ -12,7 +12,7 @@
 //! image.boxes.push(LabelledBox::new(pixel_box));
 //! let dataset = LabelledDataset::new("demo", LabelForm::LabelFolder, vec![image]);
 //!
-//! // What another program found in that image: the apple, and something else.
+//! // The detections of another program in that image: the apple, and a false positive.
 //! let seen = |x: f64, score| Detection { x_min: x, y_min: 0.0, x_max: x + 10.0, y_max: 10.0, score, class: 0 };
 //! let source = DetectionSource::Boxes {
 //!     name: "theirs".into(),
@@ -29,19 +29,20 @@
 //!
 //! # Concepts
 //!
-//! - A [`LabelledDataset`] holds [`LabelledImage`]s. It is read from a folder in the form of YOLO, VOC or COCO, or from
+//! - A [`LabelledDataset`] contains [`LabelledImage`]s. It is read from a folder in YOLO, VOC or COCO form, or from
 //!   frames with boxes.
 //! - A [`DetectionSource`] is a detector, or the boxes of another program ([`read_detections`]).
-//! - [`match_detections`] matches detections with labels as COCO does; a [`MatchedImage`] holds the matches of an image.
+//! - [`match_detections`] matches detections with labels as COCO does; a [`MatchedImage`] holds the matches of an
+//!   image.
 //! - A [`Curve`] is precision over recall, with the areas under it.
 //! - [`evaluate_detections`] gives a [`DetectionEvaluation`]: for each source its figures with intervals from resampled
 //!   images, recall by size ([`SizeClass`]) and the worst images; for each pair of sources the paired differences.
-//! - [`detection_page`] is what `report.html` holds.
+//! - [`detection_page`] is the content of `report.html`.
 //!
 //! # Not here
 //!
-//! Running networks (`pomona-detect`), reading a single file of boxes (`pomona-cloud`), pictures (`pomona-view`), picking
-//! directions against truth (`pomona-evaluate`).
+//! Running networks (`pomona-detect`), reading a single file of boxes (`pomona-cloud`), pictures (`pomona-view`),
+//! picking directions against truth (`pomona-evaluate`).
 //!
 //! # References
 //!

@@ -1,5 +1,6 @@
 use crate::tiling_choice::TilingChoice;
 use pomona_cloud::PixelWindow;
+use pomona_files::Malformed;
 use std::path::PathBuf;
 use thiserror::Error;
 
@@ -76,4 +77,21 @@ pub enum NetworkError {
         /// Rows.
         rows: usize,
     },
+}
+
+impl NetworkError {
+    /// The error for a fault in the model or description of this name.
+    pub fn model(model: impl Into<String>, fault: Malformed) -> Self {
+        let Malformed {
+            place,
+            problem,
+            remedy,
+        } = fault;
+        Self::Model {
+            model: model.into(),
+            place,
+            problem,
+            remedy,
+        }
+    }
 }

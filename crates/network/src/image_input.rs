@@ -1,7 +1,5 @@
-use crate::{
-    fault::ModelFault,
-    tensor::{Port, Tensor},
-};
+use crate::tensor::{Port, Tensor};
+use pomona_files::Malformed;
 
 /// Largest side of an input in pixels: beyond it, a slip of the pen would ask for gigabytes.
 pub const LARGEST_INPUT_SIDE: usize = 8192;
@@ -16,11 +14,11 @@ pub(crate) struct ImageInput {
 }
 
 impl ImageInput {
-    pub(crate) fn of(ports: &[Port]) -> Result<Self, ModelFault> {
+    pub(crate) fn of(ports: &[Port]) -> Result<Self, Malformed> {
         let image = ports.iter().position(|port| port.shape.len() == 4);
         let fault = |problem: String| {
             let remedy = "export a model that takes one image [1, 3, height, width], and perhaps its size [1, 2]";
-            Err(ModelFault::new("inputs", problem, remedy))
+            Err(Malformed::new("inputs", problem, remedy))
         };
         let Some(image) = image else {
             let names: Vec<&str> = ports.iter().map(|port| port.name.as_str()).collect();
@@ -84,10 +82,10 @@ impl ImageInput {
 pub fn input_size(
     inputs: &[Port],
     stated: Option<[usize; 2]>,
-) -> Result<[Option<usize>; 2], ModelFault> {
+) -> Result<[Option<usize>; 2], Malformed> {
     let port = &inputs[ImageInput::of(inputs)?.image];
     let place = format!("input `{}`", port.name);
-    let fault = |problem: &str, remedy: &str| Err(ModelFault::new(&*place, problem, remedy));
+    let fault = |problem: &str, remedy: &str| Err(Malformed::new(&*place, problem, remedy));
     let [batch, channels, height, width] = port.shape[..] else {
         return fault(
             "it does not have the four axes of an image",

@@ -1,8 +1,9 @@
 use crate::{
-    error::NetworkError, fault::ModelFault, image_input::ImageInput, letterbox::Letterbox,
-    network::Network, preparation::Preparation, tensor::Tensor,
+    error::NetworkError, image_input::ImageInput, letterbox::Letterbox, network::Network,
+    preparation::Preparation, tensor::Tensor,
 };
 use pomona_cloud::{ColorImage, PixelWindow};
+use pomona_files::Malformed;
 use rayon::prelude::*;
 
 /// A network whose input is a colour image, run over windows of larger images.
@@ -24,7 +25,7 @@ impl ImageNetwork {
         network: Box<dyn Network>,
         input: [usize; 2],
         preparation: Preparation,
-    ) -> Result<Self, ModelFault> {
+    ) -> Result<Self, Malformed> {
         Ok(Self {
             image_input: ImageInput::of(network.inputs())?,
             network,

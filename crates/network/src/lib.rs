@@ -1,7 +1,7 @@
 //! An ONNX network run over an image: loaded into an inference backend, fed window by window, its outputs mapped
 //! back to pixels of the image.
 //!
-//! What the outputs mean is the caller's business: boxes to a detector, classes of pixels to a segmenter. Here a
+//! The caller interprets the outputs: boxes for a detector, classes of pixels for a segmenter. Here a
 //! stand-in for a segmentation network answers `[1, 1, H, W]` logits, and its caller counts the pixels above 0:
 //!
 //! ```
@@ -36,7 +36,7 @@
 //!     element: Element::F32,
 //! };
 //! let network = Box::new(Redder([port("image", 3), port("wood", 1)]));
-//! let network = ImageNetwork::new(network, [8, 8], Preparation::default()).map_err(|fault| fault.at("redder"))?;
+//! let network = ImageNetwork::new(network, [8, 8], Preparation::default()).map_err(|fault| NetworkError::model("redder", fault))?;
 //!
 //! // A brown post, 4 pixels wide, before grass; only the tiles in which it can be are run.
 //! let mut image = ColorImage::filled(32, 8, [60, 120, 60]);
@@ -65,28 +65,28 @@
 //!
 //! # Concepts
 //!
-//! - A [`Network`] has named inputs and outputs, [`Port`]s, and turns [`Tensor`]s into tensors. [`open_network`] makes
-//!   one of an ONNX file; the trait is there for an inference backend that this crate does not bring.
-//! - A *runtime*, or inference backend, computes it: ONNX Runtime, loaded at run time where a library of it is found,
-//!   or rten, built in. [`RuntimeChoice`] selects, [`RuntimeReport`] tells which one it was and why.
+//! - A [`Network`] has named inputs and outputs, [`Port`]s, and turns [`Tensor`]s into tensors. [`open_network`]
+//!   creates one from an ONNX file; implement the trait for another inference backend.
+//! - An inference backend (*runtime*) executes it: ONNX Runtime, loaded at run time if its library is found, or rten,
+//!   built in. [`RuntimeChoice`] selects one, [`RuntimeReport`] names the one used and the reason.
 //! - The file is read and checked before a backend sees it: a truncated or foreign file gives the same message with
 //!   both, and both name the same inputs, outputs and metadata.
 //! - A [`Tiling`] cuts a large image into overlapping windows. A [`Letterbox`] scales a window into the network's input
-//!   and maps points back, exactly; [`Preparation`] says how pixels become numbers. An [`ImageNetwork`] joins all of
-//!   them and spreads the windows over the cores.
+//!   and maps points back, exactly; [`Preparation`] defines how pixels become numbers. An [`ImageNetwork`] combines
+//!   them and distributes the windows over the cores.
 //!
-//! A network is never trusted: shapes that do not fit are errors that name them, and a backend that panics on a
-//! malformed model becomes an error too.
+//! Networks are untrusted: shapes that do not fit are errors that name them, and a panic of a backend on a malformed
+//! model becomes an error.
 //!
 //! # Not here
 //!
-//! What outputs mean: boxes are read in `pomona-detect`. Training, networks with several images or other inputs than an
-//! image and its size, and video.
+//! The meaning of outputs: boxes are decoded in `pomona-detect`. Training, networks with several images or other
+//! inputs than an image and its size, and video.
 //!
 //! # Features
 //!
-//! `onnxruntime` loads ONNX Runtime at run time, if a library of it is there; `embedded` builds rten in. Both are on by
-//! default; with neither, a [`Network`] of one's own still runs.
+//! `onnxruntime` loads ONNX Runtime at run time, if its library is found; `embedded` builds rten in. Both are on by
+//! default; with neither, a custom [`Network`] still runs.
 //!
 //! # References
 //!
@@ -94,7 +94,6 @@
 //! - Protocol Buffers documentation, Encoding.
 
 mod error;
-mod fault;
 mod image_input;
 mod image_network;
 mod letterbox;
@@ -109,11 +108,11 @@ mod tiling;
 mod tiling_choice;
 
 pub use error::NetworkError;
-pub use fault::ModelFault;
 pub use image_input::{LARGEST_INPUT_SIDE, input_size};
 pub use image_network::{ImageNetwork, check_image};
 pub use letterbox::Letterbox;
 pub use network::{Network, RuntimeReport};
+pub use pomona_files::Malformed;
 pub use preparation::{ChannelOrder, Padding, Preparation};
 pub use runtime::{RuntimeChoice, open_network};
 pub use source::ModelSource;

@@ -1,22 +1,27 @@
 //! What a model's file is: read, checked, and summarised, before an inference backend sees it.
 
+pub(crate) mod fields;
 mod file_kind;
 pub(crate) mod protobuf;
 mod summary;
 
 use crate::{
     error::NetworkError,
-    fault::ModelFault,
     source::ModelSource,
     tensor::{Element, Port, element_count},
 };
 use file_kind::foreign_kind;
+use pomona_files::Malformed;
 use std::borrow::Cow;
 use std::path::{Component, Path};
 use std::sync::Arc;
 use summary::Summary;
 
 /// An ONNX file that was read and looks right.
+#[cfg_attr(
+    not(any(feature = "embedded", feature = "onnxruntime")),
+    expect(dead_code, reason = "no inference backend in this build reads it")
+)]
 pub(crate) struct OnnxFile {
     /// Its file, or its name if it is built in.
     pub(crate) name: String,
@@ -48,19 +53,19 @@ impl OnnxFile {
             }
         };
         if let Some(fault) = foreign_kind(&bytes) {
-            return Err(fault.at(name));
+            return Err(NetworkError::model(name, fault));
         }
         let summary = Summary::parse(&bytes).and_then(|summary| {
             check_ports(&summary)?;
             Ok(summary)
         });
-        let summary = summary.map_err(|fault| fault.at(&*name))?;
+        let summary = summary.map_err(|fault| NetworkError::model(&*name, fault))?;
         let external = summary
             .external
             .iter()
             .map(|location| Ok((location.clone(), read_weights(folder, location)?)))
-            .collect::<Result<_, ModelFault>>()
-            .map_err(|fault| fault.at(&*name))?;
+            .collect::<Result<_, Malformed>>()
+            .map_err(|fault| NetworkError::model(&*name, fault))?;
         Ok(Self {
             name,
             bytes,
@@ -73,17 +78,21 @@ impl OnnxFile {
     }
 
     /// What an inference backend says about the model, as an error.
+    #[cfg_attr(
+        not(any(feature = "embedded", feature = "onnxruntime")),
+        expect(dead_code, reason = "no inference backend in this build reads it")
+    )]
     pub(crate) fn refused(&self, runtime: &str, place: &str, said: &str) -> NetworkError {
         let opset = match self.opset {
             Some(opset) => format!("operators of opset {opset}"),
             None => "operators of no stated opset".to_owned(),
         };
-        ModelFault::new(
+        let fault = Malformed::new(
             place,
             format!("{runtime} refuses the network, {opset}: {}", said.trim()),
             "export it with an opset from 11 to 17 and standard operators, or try the other runtime",
-        )
-        .at(&*self.name)
+        );
+        NetworkError::model(&*self.name, fault)
     }
 }
 
@@ -99,15 +108,16 @@ fn read_file(path: &Path) -> Result<Vec<u8>, NetworkError> {
             about.len()
         );
         let remedy = "give a network's .onnx file, or export the weights to a file of their own";
-        return Err(ModelFault::new("whole file", problem, remedy).at(path.display().to_string()));
+        let fault = Malformed::new("whole file", problem, remedy);
+        return Err(NetworkError::model(path.display().to_string(), fault));
     }
     std::fs::read(path).map_err(unreadable)
 }
 
 /// Reads weights that are in another file beside the model.
-fn read_weights(folder: Option<&Path>, location: &str) -> Result<Arc<[u8]>, ModelFault> {
+fn read_weights(folder: Option<&Path>, location: &str) -> Result<Arc<[u8]>, Malformed> {
     let fault = |problem: String, remedy: &str| {
-        ModelFault::new(format!("weights in `{location}`"), problem, remedy)
+        Malformed::new(format!("weights in `{location}`"), problem, remedy)
     };
     let Some(folder) = folder else {
         return Err(fault(
@@ -134,7 +144,7 @@ fn read_weights(folder: Option<&Path>, location: &str) -> Result<Arc<[u8]>, Mode
 }
 
 /// Refuses a network without an image among its inputs, without outputs, or with inputs that cannot be filled.
-fn check_ports(summary: &Summary) -> Result<(), ModelFault> {
+fn check_ports(summary: &Summary) -> Result<(), Malformed> {
     if !summary.inputs.iter().any(is_image) {
         let inputs: Vec<String> = summary
             .inputs
@@ -146,11 +156,11 @@ fn check_ports(summary: &Summary) -> Result<(), ModelFault> {
             _ => format!("none takes a colour image: {}", inputs.join(", ")),
         };
         let remedy = "give a network with an input [1, 3, height, width]";
-        return Err(ModelFault::new("inputs", problem, remedy));
+        return Err(Malformed::new("inputs", problem, remedy));
     }
     if summary.outputs.is_empty() {
         let remedy = "give a network that was exported with its outputs";
-        return Err(ModelFault::new("outputs", "there are none", remedy));
+        return Err(Malformed::new("outputs", "there are none", remedy));
     }
     for port in &summary.inputs {
         if port.element == Element::Other {
@@ -158,7 +168,7 @@ fn check_ports(summary: &Summary) -> Result<(), ModelFault> {
         }
         let least: Vec<usize> = port.shape.iter().map(|axis| axis.unwrap_or(1)).collect();
         if element_count(&least).is_none_or(|count| count > LARGEST_INPUT) {
-            return Err(ModelFault::new(
+            return Err(Malformed::new(
                 format!("input `{}`", port.name),
                 format!("{} is larger than any image", port.shape_text()),
                 "export the model for images of a usual size, such as 416 or 640",
@@ -169,8 +179,8 @@ fn check_ports(summary: &Summary) -> Result<(), ModelFault> {
 }
 
 /// The fault of an input or output whose numbers cannot be converted from or to `f32`; `element` is what it stores.
-pub(crate) fn unconvertible(kind: &str, port: &Port, element: &str) -> ModelFault {
-    ModelFault::new(
+pub(crate) fn unconvertible(kind: &str, port: &Port, element: &str) -> Malformed {
+    Malformed::new(
         format!("{kind} `{}`", port.name),
         format!("stores {element}, which cannot be converted"),
         "export the model in 32-bit floating point",

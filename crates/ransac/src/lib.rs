@@ -1,8 +1,8 @@
-//! A RANSAC engine: robust fitting of any model to any data, given a way to
-//! fit the model to a few of them and to measure how far the others lie off.
+//! A RANSAC engine: robust fitting of any model to any data, given a way to fit the model to a few data and to
+//! measure the residuals of the others.
 //!
-//! The engine knows no geometry and owns no data. Implement [`Estimator`] for
-//! a view of your own data, and put the rest together from parts:
+//! The engine is independent of geometry and owns no data. Implement [`Estimator`] for a view of your own data, and
+//! combine the rest from parts:
 //!
 //! ```
 //! use pomona_ransac::{Candidates, Estimator, FixedCount, InlierCount, Ransac, RefitOnce};
@@ -45,7 +45,7 @@
 //!     }
 //! }
 //!
-//! // Forty points on y = 2x + 1, and every fourth of them thrown far off.
+//! // Forty points on y = 2x + 1, every fourth of them an outlier.
 //! let x: Vec<f64> = (0..40).map(f64::from).collect();
 //! let y = x.iter().map(|x| 2.0 * x + 1.0 + if x % 4.0 == 0.0 { 50.0 + x * x } else { 0.0 });
 //! let points = Points { y: y.collect(), x };
@@ -63,46 +63,42 @@
 //!
 //! - An [`Estimator`] fits models to a minimal sample, refits a model to its
 //!   inliers, and measures the residuals of one *block* of data at a time.
-//! - A [`Sampler`] picks the sample ([`Uniform`], [`Prosac`], [`Local`], [`Pairs`]); a
-//!   [`Constraint`] may refuse the sample, or the model before anything is scored, and is asked
-//!   again after every refit.
+//! - A [`Sampler`] picks the sample ([`Uniform`], [`Prosac`], [`Local`], [`Pairs`]); a [`Constraint`] may reject the
+//!   sample, or the model before scoring, and is checked again after every refit.
 //! - A [`Scorer`] turns the residuals of a block into a gain of at most one per datum:
-//!   [`InlierCount`], [`Msac`], [`MarginalScore`], or [`PerDatum`] with thresholds and weights of each
-//!   datum's own.
-//! - A [`Preemption`] gives a model up before all data are seen: [`Lossless`], which never changes
-//!   the outcome, or [`Statistical`], whose probability of changing it is a parameter.
+//!   [`InlierCount`], [`Msac`], [`MarginalScore`], or [`PerDatum`] with individual thresholds and weights.
+//! - A [`Preemption`] abandons a model before all data are scored: [`Lossless`], which never changes the result, or
+//!   [`Statistical`], whose probability of changing it is a parameter.
 //! - A [`LocalOptimization`] refits: [`RefitOnce`], [`LeastSquares`], [`Reweighted`], and
-//!   [`NearBest`], which does so with the hypotheses near the best as well.
-//! - A [`Stopping`] rule ends the search: [`FixedCount`], [`Confidence`], [`TimeBudget`], [`Until`], or
-//!   one [`or`](Stopping::or) another.
+//!   [`NearBest`], which also refits the hypotheses that score almost as well as the best.
+//! - A [`Stopping`] rule ends the search: [`FixedCount`], [`Confidence`], [`TimeBudget`], [`Until`], or a combination
+//!   with [`or`](Stopping::or).
 //! - The [`Report`] is computed from the final model alone, so that its score,
-//!   inliers and residuals belong together. Where the estimator gives derivatives
-//!   ([`Estimator::linearize`]), it tells the noise and the model's [`Covariance`].
+//!   inliers and residuals are consistent. If the estimator provides derivatives ([`Estimator::linearize`]), it
+//!   contains the noise and the model's [`Covariance`].
 //!
-//! Where the data hold several structures, [`Sequential`] finds one after the other among the
-//! data that are left, and a [`Competition`] chooses among candidate models, which share out the data.
+//! If the data contain several structures, [`Sequential`] finds one after the other among the remaining data, and a
+//! [`Competition`] selects among candidate models that compete for the data.
 //!
-//! A [`Workspace`] is the memory of a search: with one that is used again,
-//! [`Ransac::run_with`] allocates nothing.
+//! A [`Workspace`] is the memory of a search: with a reused one, [`Ransac::run_with`] allocates nothing.
 //!
-//! Randomness is a counter: iteration `i` draws from a generator keyed by
-//! (seed, `i`) and by nothing else, where the seed is one number taken from
-//! the caller's generator. Iterations are computed in rounds and merged in order, so the
-//! report is the same, bit for bit, for any size of a round and any number of threads.
+//! Randomness is a counter: iteration `i` draws from a generator keyed by (seed, `i`) alone; the seed is one number
+//! taken from the caller's generator. Iterations are computed in rounds and merged in order, so the report is the
+//! same, bit for bit, for any size of a round and any number of threads.
 //!
 //! # Not here
 //!
-//! Geometry, point clouds, files. Primitives in space (sphere, line, plane,
-//! cylinder) fitted with this engine are the crate `pomona-fit`.
+//! Geometry, point clouds, files. The crate `pomona-fit` fits geometric primitives (sphere, line, plane, cylinder)
+//! with this engine.
 //!
 //! # Features
 //!
-//! - `rayon`, off by default: `Ransac::threads` and `Ransac::parallel` share the work among the
-//!   threads of a `rayon` pool.
+//! - `rayon`, off by default: `Ransac::threads` and `Ransac::parallel` distribute the work over the threads of a
+//!   `rayon` pool.
 //!
 //! # References
 //!
-//! Each method's source stands at its type. Those that the whole rests on:
+//! The source of each method is given at its type. The fundamental ones:
 //! Fischler and Bolles 1981, "Random sample consensus", doi 10.1145/358669.358692.
 //! Torr and Zisserman 2000, "MLESAC", doi 10.1006/cviu.1999.0832 (the score [`Msac`]).
 

@@ -164,6 +164,8 @@ pub(crate) fn residual_statistics<E: Estimator>(
 }
 
 /// The median of numbers, of which there is at least one; reorders them.
+///
+/// Said here again, since this crate depends on `rand_core` alone.
 fn median(numbers: &mut [f64]) -> f64 {
     let even = numbers.len().is_multiple_of(2);
     let (below, &mut upper, _) = numbers.select_nth_unstable_by(numbers.len() / 2, f64::total_cmp);

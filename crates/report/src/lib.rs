@@ -1,4 +1,4 @@
-//! Parts of a self-contained page: tables, numbers, plots as SVG.
+//! Parts of a self-contained HTML page: tables, numbers, plots as SVG.
 //!
 //! ```
 //! use pomona_report::html::{figures, page, table};
@@ -17,14 +17,14 @@
 //!
 //! # Concepts
 //!
-//! - [`html`]: elements and the page about them; text is escaped, style sheets and plots are inline.
-//! - [`number`]: numbers as cells of a table, in the units that a person reads.
+//! - [`html`]: elements and the enclosing page; text is escaped, style sheets and plots are inline.
+//! - [`number`]: numbers as table cells, in human-readable units.
 //! - [`plot`](mod@plot): axes and series of marks, drawn as an SVG element.
 //!
 //! # Not here
 //!
-//! What is reported: `pomona-evaluate` and `pomona-labels` draw up their own pages. Tables of a terminal are the command
-//! line's.
+//! What is reported: `pomona-evaluate` and `pomona-labels` compose their own pages. Terminal tables belong to the
+//! command line.
 
 pub mod html;
 pub mod number;

@@ -6,6 +6,7 @@
 
 use pomona_cloud::{ColorImage, DepthImage, Frame};
 use pomona_scenes::{AppleTruth, Case, Scene, Suite};
+use pomona_statistics::inverse_cdf;
 use std::error::Error;
 use std::time::Instant;
 
@@ -129,14 +130,8 @@ fn stroke(image: &mut ColorImage, a: (f64, f64), b: (f64, f64), color: [u8; 3]) 
 
 /// Near is light, far dark, no reading blue; the scale runs over the middle 98 % of the readings.
 fn colored_depth(depth: &DepthImage, scale: f64) -> ColorImage {
-    let mut sorted: Vec<u16> = depth.readings.iter().copied().filter(|&r| r > 0).collect();
-    sorted.sort_unstable();
-    let quantile = |q: f64| {
-        sorted
-            .get((sorted.len() as f64 * q) as usize)
-            .copied()
-            .unwrap_or(1)
-    };
+    let mut readings: Vec<u16> = depth.readings.iter().copied().filter(|&r| r > 0).collect();
+    let mut quantile = |q: f64| inverse_cdf(&mut readings, q).unwrap_or(1);
     let (near, far) = (
         f64::from(quantile(0.01)) * scale,
         f64::from(quantile(0.99)) * scale,

@@ -3,6 +3,7 @@
 //! `cargo run --release -p pomona-scenes --example statistics SUITE [SCENES]`
 
 use pomona_scenes::{AppleTruth, Suite};
+use pomona_statistics::inverse_cdf;
 use std::error::Error;
 use std::time::Instant;
 
@@ -52,20 +53,10 @@ fn main() -> Result<(), Box<dyn Error>> {
 }
 
 fn quantiles(name: &str, values: impl Iterator<Item = f64>) {
-    let mut sorted: Vec<f64> = values.collect();
-    sorted.sort_by(f64::total_cmp);
-    let at = |q: f64| {
-        sorted
-            .get((q * sorted.len() as f64) as usize)
-            .copied()
-            .unwrap_or(f64::NAN)
-    };
-    let last = sorted.last().copied().unwrap_or(f64::NAN);
+    let mut values: Vec<f64> = values.collect();
+    let [least, tenth, half, nine_tenths, most] =
+        [0.0, 0.1, 0.5, 0.9, 1.0].map(|q| inverse_cdf(&mut values, q).unwrap_or(f64::NAN));
     println!(
-        "  {name:<24} least {:8.2}  10 % {:8.2}  half {:8.2}  90 % {:8.2}  most {last:8.2}",
-        at(0.0),
-        at(0.1),
-        at(0.5),
-        at(0.9),
+        "  {name:<24} least {least:8.2}  10 % {tenth:8.2}  half {half:8.2}  90 % {nine_tenths:8.2}  most {most:8.2}",
     );
 }

@@ -156,7 +156,7 @@ impl Sensor {
         }
     }
 
-    /// The same camera in an orchard: all that goes wrong there at once.
+    /// The same camera in an orchard, with all the errors that occur there.
     ///
     /// Rims two pixels wide lose half their readings, wood under 6 mm half of
     /// its own; 2 % fall out in patches, sunlight burns holes into 6 % of the

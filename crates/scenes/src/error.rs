@@ -15,9 +15,9 @@ pub enum SceneError {
         /// The names there are.
         known: Vec<&'static str>,
     },
-    /// The folder is there and holds what is not a scene of ours.
+    /// The folder exists and holds files that are not a scene's.
     #[error(
-        "{path}: is no file of a scene and would be lost; name a new folder, an empty one, or one that holds a scene \
+        "{path}: is not part of a scene and would be lost; name a new folder, an empty one, or one that contains a scene \
          alone"
     )]
     Occupied {

@@ -1,4 +1,4 @@
-//! Apples, spurs, leaves and shoots put on branches, in a level frame (x right, y down, z away).
+//! Apples, spurs, leaves and shoots added to branches, in a level frame (x right, y down, z away).
 
 use crate::apple::Apple;
 use crate::curve::Curve;
@@ -10,7 +10,7 @@ use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use std::ops::Range;
 
-/// A world that grows, and the draws by which it does.
+/// A world under construction, with its random numbers.
 pub(crate) struct Grower {
     pub(crate) world: World,
     pub(crate) rng: ChaCha8Rng,

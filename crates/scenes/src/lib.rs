@@ -1,4 +1,4 @@
-//! Synthetic RGB-D frames of apples on branches, with the truth beside them.
+//! Synthetic RGB-D frames of apples on branches, with ground truth.
 //!
 //! ```
 //! use pomona_scenes::Suite;
@@ -24,13 +24,13 @@
 //!
 //! - A [`World`] holds shapes in the camera's frame (x right, y down, z
 //!   forward; metres): [`Apple`]s, [`Branch`]es along smooth [`Curve`]s, twigs
-//!   that are no branches, [`Leaf`]s, a backdrop or none.
+//!   (which are not branches), [`Leaf`]s, and perhaps a backdrop.
 //! - A [`Shot`] takes a [`Scene`] of it: the ray of every pixel stops at the
-//!   first surface, so that things hide one another as they would; a
+//!   first surface, so that objects occlude one another; a
 //!   [`Sensor`] turns the exact depths into readings.
 //! - A [`Truth`] says, for every apple with a box, where it is, which branch is
 //!   nearest, in which direction to pick, and how much of apple and branch the
-//!   camera sees: enough to judge a refusal right or wrong.
+//!   camera sees: enough to decide whether a refusal is right.
 //! - A [`Suite`] is a named list of scenes that are the same for everyone:
 //!   all randomness comes from explicit seeds, and the bytes do not depend on
 //!   the number of threads. `lab15` and `lab150` are the paper's lab, `repeat474`
@@ -38,7 +38,7 @@
 //!   `orchard` random branches, `harsh` the same outdoors (`-kinect`,
 //!   `-azure-kinect`, `-d400` by other cameras), `row` whole trees, `demo` a picture.
 //!
-//! An own scene, seen by a camera without noise:
+//! A scene of your own, seen by a camera without noise:
 //!
 //! ```
 //! use nalgebra::Point3;
@@ -52,14 +52,14 @@
 //!     end_radius: 0.004,
 //! });
 //! let scene = Shot::new("own", Shot::paper_camera(), Sensor::perfect(), 0).take(&world);
-//! // The pixel in the middle reads the apple's front: 0.76 m.
+//! // The central pixel measures the front of the apple: 0.76 m.
 //! let reading = scene.frame.depth.get(640, 480).expect("inside the image");
 //! assert!((f64::from(reading) * scene.frame.camera.depth_scale - 0.76).abs() < 1e-4);
 //! ```
 //!
 //! # Not here
 //!
-//! Anything that looks for apples: the pipeline is judged by this crate and
+//! Anything that finds apples: the pipeline is measured by this crate and
 //! must stay unknown to it. Lens distortion, motion blur and photographic
 //! realism: the colours are there for detectors of coloured shapes and for people.
 //!
@@ -67,7 +67,7 @@
 //!
 //! - Gao, Zhou, Cao, Jiang 2022, "An Algorithm for Calculating Apple Picking
 //!   Direction Based on 3D Vision", Agriculture 12(8), 1170,
-//!   doi 10.3390/agriculture12081170: the lab set-up and the repeats.
+//!   doi 10.3390/agriculture12081170: the laboratory set-up and the repeats.
 
 mod apple;
 mod cameras;

@@ -13,7 +13,7 @@ pub struct Light {
     pub sky: [f64; 3],
     /// Colour of the light from below.
     pub ground: [f64; 3],
-    /// Whether things cast shadows; costs about half the time of the colours again.
+    /// Whether objects cast shadows; takes half as long again as the colours.
     pub shadows: bool,
 }
 

@@ -10,7 +10,7 @@ use nalgebra::{Isometry3, Point3, Rotation3, Translation3, Vector3};
 use pomona_cloud::Camera;
 use rand::RngExt;
 
-/// Random pieces of an orchard: one target apple, its branch, and what stands about them.
+/// Random parts of an orchard: one target apple, its branch, and their surroundings.
 ///
 /// Ranges are drawn from evenly; lengths in metres. The target is apple 0.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,4 +1,4 @@
-//! Seeded draws: streams that never share numbers, a normal law, a lattice hash.
+//! Seeded random numbers: independent streams, normal draws, a lattice hash.
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 /// What a stream is drawn for; streams of different purposes are independent.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Purpose {
-    /// Where things stand and how large they are.
+    /// Positions and sizes of objects.
     Layout = 1,
     /// Depth noise along the ray, by row.
     Axial,

@@ -3,7 +3,7 @@ use crate::world::{Owner, Part, World};
 use pomona_cloud::Camera;
 use rayon::prelude::*;
 
-/// What each pixel's ray meets first.
+/// The first intersection of each pixel's ray.
 #[derive(Clone, Debug)]
 pub(crate) struct Raycast {
     pub(crate) width: usize,

@@ -45,7 +45,7 @@ impl Row {
             .map(|i| lateral(&mut tree, &leader, i, count))
             .collect();
         let wanted = tree.rng.random_range(self.apples.0..=self.apples.1);
-        // Places that are taken already are passed over, so more are tried.
+        // Positions that are taken already are skipped, so more are tried.
         for _ in 0..30 * wanted {
             if tree.world.apples().len() == wanted {
                 break;

@@ -4,7 +4,7 @@ use pomona_cloud::Frame;
 use pomona_files::{FileError, temporary_beside};
 use std::path::{Path, PathBuf};
 
-/// A frame and what is true of it.
+/// A frame and its ground truth.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scene {
     /// What a program is given.

@@ -1,15 +1,15 @@
 use std::borrow::Cow;
 
-/// What a depth camera does to the depth it is shown.
+/// A model of a depth sensor.
 ///
-/// The fields take effect in the order in which they stand here.
+/// The fields take effect in the order of their declaration.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sensor {
     /// Name, as suites and truth files call it.
     pub name: Cow<'static, str>,
     /// Standard deviation, pixels, of the place on the image from which a reading is taken.
     pub lateral_px: f64,
-    /// What happens next to a jump in depth.
+    /// Effects beside a jump in depth.
     pub edges: Edges,
     /// Readings lost on thin wood.
     pub thin: Thin,
@@ -143,7 +143,7 @@ pub struct Bias {
 }
 
 impl Sensor {
-    /// A camera without any fault but a unit of 0.1 mm: for tests of geometry.
+    /// A camera without errors apart from its unit of 0.1 mm: for tests of geometry.
     pub fn perfect() -> Self {
         Self {
             name: "perfect".into(),

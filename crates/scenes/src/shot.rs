@@ -13,9 +13,9 @@ use pomona_cloud::{Camera, ColorImage, Frame, PixelBox};
 pub struct Shot {
     /// Name of the frame.
     pub id: String,
-    /// The camera that really stands there; its depth scale gives way to the sensor's.
+    /// The true camera; its depth scale is replaced by the sensor's.
     pub camera: Camera,
-    /// What happens to the depth.
+    /// The model of the depth sensor.
     pub sensor: Sensor,
     /// Seed of the sensor's noise.
     pub seed: u64,

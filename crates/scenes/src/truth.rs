@@ -1,3 +1,6 @@
+#[cfg(test)]
+mod schema;
+
 use crate::error::SceneError;
 use pomona_cloud::{Camera, PixelBox};
 use pomona_files::write_atomically;
@@ -10,13 +13,16 @@ pub const TRUTH_SCHEMA: &str = "pomona.truth/1";
 /// The name of the file in a frame's folder.
 pub const TRUTH_FILE: &str = "truth.json";
 
-/// What a synthetic frame knows about itself: the content of `truth.json`.
+/// The ground truth of a synthetic frame: the content of `truth.json`.
 ///
 /// Lengths in metres, in the camera's frame. What the optional fields hold is
 /// absent where nobody computed it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[cfg_attr(test, schemars(deny_unknown_fields))]
 pub struct Truth {
     /// Always [`TRUTH_SCHEMA`].
+    #[cfg_attr(test, schemars(extend("const" = TRUTH_SCHEMA)))]
     pub schema: String,
     /// The boxed apples, in the order of the frame's boxes.
     pub apples: Vec<AppleTruth>,
@@ -28,30 +34,37 @@ pub struct Truth {
     pub sensor: Option<String>,
     /// The camera that the frame was really taken with, where its own file states another.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(test, schemars(with = "schema::CameraShape"))]
     pub camera: Option<Camera>,
 }
 
 /// One apple.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[cfg_attr(test, schemars(deny_unknown_fields, extend("dependentRequired" = { "branch": ["direction"], "direction": ["branch"] })))]
 pub struct AppleTruth {
     /// Box about what shows of it in the colour image.
     #[serde(rename = "box")]
+    #[cfg_attr(test, schemars(with = "schema::PixelBoxShape"))]
     pub bounds: PixelBox,
     /// Centre; for a flattened apple that of its largest circle about the stem's axis.
     pub center: [f64; 3],
     /// Radius; for a flattened apple that of its largest circle.
+    #[cfg_attr(test, schemars(extend("exclusiveMinimum" = 0)))]
     pub radius: f64,
     /// The nearest branch that passes within 1.8 radii; absent where none does.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub branch: Option<BranchTruth>,
     /// Unit vector from the centre to the nearest point of that branch's centre line.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(test, schemars(with = "pomona_schema::UnitVector"))]
     pub direction: Option<[f64; 3]>,
     /// Whether the scene was made for this apple; a neighbour is not a target.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub target: Option<bool>,
     /// Visible share of the silhouette's pixels inside the image.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(test, schemars(range(min = 0.0, max = 1.0)))]
     pub visible_share: Option<f64>,
     /// Leaves whose middle lies within 3 radii of the apple's centre, seen or not.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -60,12 +73,16 @@ pub struct AppleTruth {
 
 /// The branch of an apple: the tangent of its centre line where it is nearest.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[cfg_attr(test, schemars(deny_unknown_fields))]
 pub struct BranchTruth {
     /// Nearest point of the centre line.
     pub point: [f64; 3],
     /// Unit tangent there.
+    #[cfg_attr(test, schemars(with = "pomona_schema::UnitVector"))]
     pub direction: [f64; 3],
     /// Radius there.
+    #[cfg_attr(test, schemars(extend("exclusiveMinimum" = 0)))]
     pub radius: f64,
     /// Number of the branch in its scene.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -75,11 +92,12 @@ pub struct BranchTruth {
     pub visible_pixels: Option<usize>,
     /// Length of the centre line that shows within 3 radii of the apple's centre, metres.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(test, schemars(range(min = 0.0)))]
     pub visible_length: Option<f64>,
 }
 
 impl Truth {
-    /// A truth without a word about how the frame came about.
+    /// A ground truth without seed, sensor or camera.
     pub fn new(apples: Vec<AppleTruth>) -> Self {
         Self {
             schema: TRUTH_SCHEMA.into(),
@@ -133,6 +151,11 @@ impl Truth {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_schema_in_the_docs_is_that_of_the_types() {
+        pomona_schema::assert_in_docs::<Truth>(TRUTH_SCHEMA, "truth.schema.json");
+    }
 
     /// The contract's example, with its bare fields.
     const CONTRACT: &str = r#"{ "schema": "pomona.truth/1", "apples": [ {

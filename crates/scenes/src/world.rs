@@ -7,7 +7,7 @@ use crate::ray::{Ray, Surface};
 use nalgebra::{Isometry3, Point3, Vector3};
 use pomona_geometry::{Line, Plane};
 
-/// A branch: a limb that apples are picked from and that truth knows about.
+/// A branch: a limb that bears apples and is part of the ground truth.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Branch {
     /// Centre line.
@@ -30,7 +30,7 @@ impl Branch {
     }
 }
 
-/// To what a visible pixel belongs; indices count in the order in which things were added.
+/// The object to which a visible pixel belongs; indices count in the order of addition.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Owner {
     /// An apple.
@@ -41,7 +41,7 @@ pub(crate) enum Owner {
     Twig,
     /// A leaf.
     Leaf,
-    /// What stands behind it all.
+    /// The backdrop.
     Backdrop,
 }
 
@@ -134,7 +134,7 @@ impl Part {
     }
 }
 
-/// What stands before the camera, in the camera's frame (x right, y down, z forward), metres.
+/// The objects before the camera, in the camera's frame (x right, y down, z forward), metres.
 #[derive(Clone, Debug, Default)]
 pub struct World {
     pub(crate) parts: Vec<Part>,
@@ -176,7 +176,7 @@ impl World {
         index
     }
 
-    /// Adds a spur, peduncle or leaf stalk: what looks like wood and is no branch.
+    /// Adds a spur, peduncle or leaf stalk: it looks like wood and is not a branch.
     pub fn add_twig(&mut self, twig: &Branch, bark: Bark) {
         self.add_limb(twig, bark, Owner::Twig);
     }
@@ -189,7 +189,7 @@ impl World {
         });
     }
 
-    /// Adds a plane behind it all.
+    /// Adds a plane as backdrop.
     pub fn add_backdrop(&mut self, plane: Plane) {
         self.parts.push(Part {
             shape: Shape::Plane(plane),

@@ -19,15 +19,16 @@
 //!
 //! # Concepts
 //!
-//! - **Quantiles** are named after their definition, since several are in use and differ for small samples. [`quantile`]
-//!   interpolates (type 7 of Hyndman and Fan, what R, NumPy and Julia give); [`lower_quantile`], [`nearest_quantile`] and
-//!   [`inverse_cdf`] give one of the values. They select in place, without sorting and without allocating.
+//! - **Quantiles** are named after their definition, since several are in use and differ for small samples.
+//!   [`quantile`] interpolates (type 7 of Hyndman and Fan, what R, NumPy and Julia give); [`lower_quantile`],
+//!   [`nearest_quantile`] and [`inverse_cdf`] give one of the values. They select in place, without sorting and
+//!   without allocating.
 //! - [`Summary`], [`MeanSd`] and [`Proportion`] are what tables print, with 95 % intervals.
-//! - **Bootstrap**: [`cluster_mean_interval`] resamples whole cases; [`draw_counts`] and [`percentile_interval`] serve
-//!   statistics that are no means.
+//! - **Bootstrap**: [`cluster_mean_interval`] resamples whole cases; [`draw_counts`] and [`percentile_interval`]
+//!   serve statistics other than means.
 //! - [`chi_square_survival`] and [`chi_square_critical`] bound squared Mahalanobis distances.
 //!
-//! No values give `None`. NaN takes part in the order of [`f64::total_cmp`]: positive NaN lies above all numbers.
+//! Empty input gives `None`. NaN is ordered of [`f64::total_cmp`]: positive NaN is above all numbers.
 //!
 //! # Not here
 //!

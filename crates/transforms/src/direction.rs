@@ -6,7 +6,7 @@ use std::ops::Neg;
 
 /// A unit vector in the frame `F`.
 ///
-/// A direction has no place; nothing takes it for a position:
+/// A direction has no position and cannot be used as one:
 ///
 /// ```compile_fail,E0308
 /// use nalgebra::Vector3;

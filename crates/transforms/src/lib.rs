@@ -37,32 +37,28 @@
 //!
 //! # Concepts
 //!
-//! - A frame is a type that implements [`FrameTag`]: [`CameraFrame`], [`RobotFrame`], or a
-//!   user's own. [`Position`] and [`Direction`] carry it, so that a position of the camera's
-//!   frame cannot be taken for one of the robot's.
-//! - A [`Transform<To, From>`](Transform) is named destination first: `robot_from_camera` takes
-//!   what is known in the camera's frame into the robot's. A position takes its rotation and its
-//!   translation, a direction the rotation only. Transforms compose where the inner frames
-//!   agree; anything else does not compile.
+//! - A frame is a type that implements [`FrameTag`]: [`CameraFrame`], [`RobotFrame`], or your own. [`Position`] and
+//!   [`Direction`] carry it, so that a position in the camera frame cannot be mistaken for one in the robot's.
+//! - A [`Transform<To, From>`](Transform) is named destination first: `robot_from_camera` takes camera coordinates to
+//!   robot coordinates. Positions are rotated and translated, directions only rotated. Transforms compose if the
+//!   inner frames agree; anything else does not compile.
 //! - A [`NamedTransform`] adds the frame ids that a camera and a robot have at run time, and is what
 //!   `robot_from_camera.json` holds.
-//! - A [`ToolOrientation`] turns a tool that points along +x into a direction, as a quaternion
-//!   and as [`EulerZyx`] angles; along ±z, where one angle has no value of its own, it says so. A
-//!   [`ToolModel`] says which axis of the tool approaches, and where the tool is on the flange.
-//! - An [`UncertainTransform`] carries a 6×6 covariance through products and inverses, to positions and
-//!   directions.
-//! - [`formats`] reads and writes what other programs use.
+//! - A [`ToolOrientation`] rotates a tool that points along +x into a direction, as a quaternion and as [`EulerZyx`]
+//!   angles; it reports the singularity along ±z. A [`ToolModel`] defines which axis of the tool approaches, and the
+//!   pose of the tool on the flange.
+//! - An [`UncertainTransform`] propagates a 6×6 covariance through products and inverses, to positions and directions.
+//! - [`formats`] reads and writes the formats of other programs.
 //!
 //! # Units and signs
 //!
 //! Metres and radians. Right-handed frames; the camera's is REP-103 optical (x right, y down,
-//! z forward). Quaternions are written x y z w, those that leave this crate as numbers
-//! with w ≥ 0.
+//! z forward). Quaternions are written x y z w, and exported with w ≥ 0.
 //!
 //! # Not here
 //!
-//! Finding the transform (`pomona-calibrate`), the pixels of a camera (`pomona-cloud`), shapes and
-//! their distances (`pomona-geometry`), the path of a tool and what stands in its way.
+//! Estimating the transform (`pomona-calibrate`), camera pixels (`pomona-cloud`), primitives and their distances
+//! (`pomona-geometry`), the path of a tool and obstacles (`pomona-approach`).
 //!
 //! # References
 //!
@@ -71,7 +67,7 @@
 //!   angles.
 //! - Higham 1986, "Computing the polar decomposition, with applications", SIAM J. Sci. Stat.
 //!   Comput. 7(4), doi 10.1137/0907079: the rotation nearest to a matrix.
-//! - REP 103, "Standard Units of Measure and Coordinate Conventions": the frames' axes.
+//! - REP 103, "Standard Units of Measure and Coordinate Conventions": the axes of the frames.
 
 mod direction;
 mod error;

@@ -5,7 +5,7 @@ use crate::{
 use nalgebra::{Isometry3, Translation3, Unit, UnitQuaternion, Vector3};
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// Standard deviation of an angle of which nothing is known: that of the uniform distribution over a turn, rad.
+/// Standard deviation of an unknown angle: that of the uniform distribution over a turn, rad.
 pub const UNKNOWN_ANGLE_SIGMA_RAD: f64 = PI / 1.732_050_807_568_877_2;
 
 /// Beyond this standard deviation, in radians, an azimuth is taken as undetermined: 30°.
@@ -137,11 +137,12 @@ fn shortest(
 
 /// The orientation of a tool along a direction that is not known exactly.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct UncertainToolOrientation {
     /// The orientation. [`singular`](ToolOrientation::singular) says that the reference azimuth was used.
     pub orientation: ToolOrientation,
     /// Standard deviation of rz, rad, due to the direction's: it grows as 1/sin of the angle to ±z, and is at most
-    /// [`UNKNOWN_ANGLE_SIGMA_RAD`], of an angle that may be anything.
+    /// [`UNKNOWN_ANGLE_SIGMA_RAD`], of an unknown angle.
     pub rz_sigma_rad: f64,
     /// Standard deviation of ry, rad.
     pub ry_sigma_rad: f64,

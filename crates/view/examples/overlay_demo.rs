@@ -7,6 +7,7 @@
 use nalgebra::{Point3, Vector3};
 use pomona_cloud::{Camera, ColorImage, DepthImage, PixelBox, PointCloud, read_boxes};
 use pomona_geometry::Sphere;
+use pomona_statistics::upper_median;
 use pomona_view::{
     AppleMark, CloudMark, Overlay, Projection, RenderOptions, Viewpoint, colored_cloud,
     render_cloud,
@@ -112,8 +113,7 @@ fn fake(number: usize, bounds: &PixelBox, depth: &DepthImage, camera: &Camera) -
             }
         }
     }
-    depths.sort_by(f64::total_cmp);
-    let z = *depths.get(depths.len() / 2)?;
+    let z = upper_median(&mut depths)?;
     let radius = half * z / camera.fx;
     let center = camera.deproject(u0, v0, z + 0.5 * radius);
     let angle = 0.35 * number as f64 - 1.0;

@@ -4,17 +4,17 @@ use crate::text::{Font, shorten};
 use crate::{ViewError, palette};
 use pomona_cloud::{ColorImage, PixelBox};
 
-/// What a box is of, which its colour says.
+/// The class of a box, which decides its colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum BoxKind {
-    /// A detection that nobody has judged: blue.
+    /// A detection that has not been matched: blue.
     Detected,
-    /// A detection that is right: green.
-    Found,
-    /// A detection of nothing that is labelled: red.
-    Further,
-    /// A label that was not found: yellow.
+    /// A true positive: green.
+    TruePositive,
+    /// A false positive: red.
+    FalsePositive,
+    /// A label that was missed: yellow.
     Missed,
 }
 
@@ -22,8 +22,8 @@ impl BoxKind {
     fn color(self) -> [u8; 3] {
         match self {
             Self::Detected => palette::BOX,
-            Self::Found => palette::BRANCH,
-            Self::Further => palette::DIRECTION,
+            Self::TruePositive => palette::BRANCH,
+            Self::FalsePositive => palette::DIRECTION,
             Self::Missed => palette::PATH,
         }
     }
@@ -59,7 +59,7 @@ pub struct BoxMark {
 ///
 /// # Errors
 ///
-/// [`ViewError`] for an image that is none.
+/// [`ViewError`] for an invalid image.
 pub fn draw_boxes(image: &ColorImage, marks: &[BoxMark]) -> Result<ColorImage, ViewError> {
     let mut canvas = Canvas::new(image)?;
     let (width, height) = (image.width, image.height);
@@ -124,8 +124,8 @@ mod tests {
         let image = ColorImage::filled(100, 100, [0; 3]);
         for (kind, color) in [
             (BoxKind::Detected, palette::BOX),
-            (BoxKind::Found, palette::BRANCH),
-            (BoxKind::Further, palette::DIRECTION),
+            (BoxKind::TruePositive, palette::BRANCH),
+            (BoxKind::FalsePositive, palette::DIRECTION),
             (BoxKind::Missed, palette::PATH),
         ] {
             let drawn = draw_boxes(&image, &[mark(30.0, kind, "")]).unwrap();
@@ -137,16 +137,16 @@ mod tests {
     #[test]
     fn a_caption_is_written_once_where_two_would_cover_each_other() {
         let image = ColorImage::filled(100, 100, [0; 3]);
-        let bare = draw_boxes(&image, &[mark(30.0, BoxKind::Found, "")]).unwrap();
-        let one = draw_boxes(&image, &[mark(30.0, BoxKind::Found, "0.91")]).unwrap();
+        let bare = draw_boxes(&image, &[mark(30.0, BoxKind::TruePositive, "")]).unwrap();
+        let one = draw_boxes(&image, &[mark(30.0, BoxKind::TruePositive, "0.91")]).unwrap();
         assert_ne!(bare, one);
         let twice = [
-            mark(30.0, BoxKind::Found, "0.91"),
-            mark(30.0, BoxKind::Found, "0.91"),
+            mark(30.0, BoxKind::TruePositive, "0.91"),
+            mark(30.0, BoxKind::TruePositive, "0.91"),
         ];
         let boxes_twice = [
-            mark(30.0, BoxKind::Found, ""),
-            mark(30.0, BoxKind::Found, "0.91"),
+            mark(30.0, BoxKind::TruePositive, ""),
+            mark(30.0, BoxKind::TruePositive, "0.91"),
         ];
         assert_eq!(draw_boxes(&image, &twice), draw_boxes(&image, &boxes_twice));
     }
@@ -155,8 +155,8 @@ mod tests {
     fn boxes_that_cannot_be_shown_are_left_out() {
         let image = ColorImage::filled(100, 100, [0; 3]);
         let marks = [
-            mark(f64::NAN, BoxKind::Further, "a"),
-            mark(500.0, BoxKind::Further, "b"),
+            mark(f64::NAN, BoxKind::FalsePositive, "a"),
+            mark(500.0, BoxKind::FalsePositive, "b"),
         ];
         assert_eq!(draw_boxes(&image, &marks).unwrap(), image);
         assert!(draw_boxes(&ColorImage::filled(0, 0, [0; 3]), &[]).is_err());

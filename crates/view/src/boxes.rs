@@ -25,7 +25,7 @@ pub(crate) fn draw_box(canvas: &mut Canvas, part: [f32; 4], scale: f32) {
 pub(crate) fn draw_refused_box(canvas: &mut Canvas, part: [f32; 4], scale: f32) {
     let [left, top, right, bottom] = part;
     let spacing = 9.0 * scale;
-    // Counted, since a sum of floats stands still where the picture is very wide.
+    // Counted, since a running sum of floats stops growing where the picture is very wide.
     let count = ((right - left + bottom - top) / spacing) as u32;
     // One line for each x + y = sum, from the top or right edge to the left or bottom one.
     for i in 1..=count {

@@ -4,7 +4,7 @@ use tiny_skia::{FillRule, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, S
 
 pub(crate) use tiny_skia::Point;
 
-/// An opaque picture under the pen.
+/// An opaque picture to draw on.
 ///
 /// Coordinates are in pixels with (0, 0) at the outer corner of the top-left
 /// pixel, so the centre of pixel (u, v) is (u + ½, v + ½).

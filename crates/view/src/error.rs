@@ -1,6 +1,6 @@
 use thiserror::Error;
 
-/// Why no picture came out.
+/// Why a picture could not be drawn.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum ViewError {
@@ -22,7 +22,7 @@ pub enum ViewError {
         /// Pixels held.
         pixels: usize,
     },
-    /// A viewpoint that looks nowhere: eye and target coincide, the field is
+    /// A viewpoint without a direction: eye and target coincide, the field is
     /// not positive, or a number is not finite.
     #[error("the viewpoint is not usable: {0}")]
     Viewpoint(&'static str),

@@ -1,4 +1,4 @@
-//! A gripper's way to an apple, and the gripper there.
+//! A gripper's path to an apple, and the gripper there.
 
 use crate::canvas::{Canvas, Point};
 use crate::palette;

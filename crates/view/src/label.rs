@@ -7,7 +7,7 @@ use crate::text::{Font, shorten};
 /// The longest text on a label, characters.
 const LONGEST: usize = 48;
 
-/// The label of one apple: its number on a coloured field, its words beside it.
+/// The label of one apple: its number on a coloured field, its text beside it.
 pub(crate) struct Label {
     number: String,
     words: String,

@@ -42,7 +42,7 @@ impl Rectangle {
     }
 }
 
-/// What wants a label: its size, the thing it names, and where the label would best have its centre.
+/// A label to be placed: its size, the object it names, and the preferred position of its centre.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LabelRequest {
     pub(crate) width: i32,
@@ -52,7 +52,7 @@ pub(crate) struct LabelRequest {
 }
 
 /// Places labels one after the other, each where it overlaps none before it,
-/// hides little and is near what it names.
+/// hides little and is near the object it names.
 pub(crate) struct Layout<'a> {
     width: i32,
     height: i32,
@@ -60,15 +60,15 @@ pub(crate) struct Layout<'a> {
     /// Placed rectangles, by the squares of the picture that they touch.
     squares: Vec<Vec<Rectangle>>,
     columns: i32,
-    /// The smallest sizes that found no room; more labels never make more room.
+    /// The smallest sizes for which there was no room; with more labels there is never more.
     unplaceable: Vec<(i32, i32)>,
 }
 
 /// Side of the squares by which placed rectangles are found again, pixels.
 const SQUARE: i32 = 64;
-/// Rings of candidates around the thing named; each is half a label's height further out.
+/// Rings of candidate positions around the anchor; each is half a label's height further out.
 const RINGS: i32 = 12;
-/// What a fully hidden thing costs, in rings of distance.
+/// Cost of hiding something entirely, in rings of distance.
 const HIDING_COST: f64 = 14.0;
 
 impl<'a> Layout<'a> {
@@ -95,7 +95,7 @@ impl<'a> Layout<'a> {
 
     /// Finds room for a label and takes it; `None` where there is none.
     ///
-    /// Looked at are positions in rings around the thing named, then a raster over the whole picture.
+    /// Candidates are positions in rings around the anchor, then a raster over the whole picture.
     pub(crate) fn place(&mut self, request: &LabelRequest) -> Option<Rectangle> {
         let rectangle = self.near(request).or_else(|| self.anywhere(request))?;
         self.reserve(rectangle);
@@ -167,7 +167,7 @@ impl<'a> Layout<'a> {
     }
 
     fn is_free(&self, rectangle: Rectangle) -> bool {
-        // One pixel of air between labels.
+        // A gap of one pixel between labels.
         let Rectangle {
             left,
             top,

@@ -21,7 +21,7 @@ pub(crate) enum Entry {
     Away,
     Path,
     Gripper,
-    /// So many labels found no room.
+    /// Number of labels for which there was no room.
     LeftOut(usize),
 }
 
@@ -43,7 +43,7 @@ impl Entry {
     }
 }
 
-/// What the drawn things mean, in a corner of the picture.
+/// The legend in a corner of the picture.
 pub(crate) struct Legend {
     entries: Vec<Entry>,
     font: Font,
@@ -73,7 +73,7 @@ impl Legend {
     }
 
     /// The corner where the legend hides least; `None` where it would take
-    /// more than a third of the picture's width or height or has nothing to say.
+    /// more than a third of the picture's width or height or is empty.
     pub(crate) fn place(
         &self,
         width: usize,

@@ -1,5 +1,5 @@
-//! Pictures of picks: marks over the colour image, coloured clouds, and
-//! pictures of clouds for those who have no viewer at hand.
+//! Pictures of picks: marks drawn over the colour image, coloured clouds, and rendered
+//! pictures of clouds for those without a viewer at hand.
 //!
 //! ```
 //! use nalgebra::Point3;
@@ -27,29 +27,29 @@
 //!
 //! # Concepts
 //!
-//! An [`AppleMark`] is what is known of one apple: a box, and perhaps the
+//! An [`AppleMark`] holds what is known of one apple: a box, and perhaps the
 //! pixels of its surface and branch, its sphere, its picking direction, a
 //! gripper's path and the gripper at the apple, a caption, a reason of refusal. [`Overlay`] draws marks over the image;
 //! colours are those of the paper ([`palette`]). A picking direction along
-//! the line of sight has no length in the picture and is drawn as a physicist
-//! would: ⊙ comes towards the camera, ⊗ goes away from it.
+//! the line of sight has no length in the picture and is drawn as in physics:
+//! ⊙ points towards the camera, ⊗ away from it.
 //!
-//! [`draw_boxes`] draws nothing but boxes, each a [`BoxMark`], and [`picture_sheet`] sets such pictures side by side.
+//! [`draw_boxes`] draws only boxes, each a [`BoxMark`], and [`contact_sheet`] arranges such pictures on a contact
+//! sheet.
 //!
-//! [`colored_cloud`] colours the points of a cloud in the same way and adds
-//! the direction as points, so that any viewer of PLY files shows it;
-//! [`render_cloud`] looks at a cloud from a [`Viewpoint`].
+//! [`colored_cloud`] colours the points of a cloud in the same way and adds the direction as points, so that any PLY
+//! viewer shows it; [`render_cloud`] renders a cloud from a [`Viewpoint`].
 //!
 //! Pixels are counted from the centre of the top-left one, which is (0, 0),
 //! as [`pomona_cloud::Camera`] does; a box spans whole pixels,
 //! `x_min <= x < x_max`. Lengths are metres, angles radians. The same input
 //! gives the same picture. Input that cannot be shown is left out of the
-//! picture; only an image or view that is none is a [`ViewError`].
+//! picture; only an invalid image or viewpoint is a [`ViewError`].
 //!
 //! # Not here
 //!
-//! Finding apples, branches and directions: this crate draws what it is told.
-//! Files: [`pomona_cloud::ColorImage`] and [`pomona_cloud::PointCloud`] write themselves.
+//! Finding apples, branches and directions: this crate only draws. Files: [`pomona_cloud::ColorImage`] and
+//! [`pomona_cloud::PointCloud`] have their own writers.
 //!
 //! # References
 //!
@@ -58,6 +58,7 @@
 //! doi 10.3390/agriculture12081170 (the colours of its figures).
 
 mod arrow;
+mod basis;
 mod box_picture;
 mod boxes;
 mod canvas;
@@ -84,5 +85,5 @@ pub use error::ViewError;
 pub use mark::AppleMark;
 pub use overlay::Overlay;
 pub use render::{RenderOptions, render_cloud};
-pub use sheet::{SheetPicture, picture_sheet};
+pub use sheet::{ContactSheetImage, contact_sheet};
 pub use viewpoint::{Projection, Viewpoint};

@@ -31,7 +31,7 @@ pub struct AppleMark<'a> {
     pub arrow: Option<(Point3<f64>, Point3<f64>)>,
     /// The fitted sphere, metres in the camera's frame.
     pub sphere: Option<Sphere>,
-    /// Places of the gripper on its way, metres in the camera's frame.
+    /// Positions along the gripper's path, metres in the camera's frame.
     pub path: Vec<Point3<f64>>,
     /// The gripper's parts at the apple, likewise.
     pub gripper: Vec<Capsule>,
@@ -42,7 +42,7 @@ pub struct AppleMark<'a> {
 }
 
 impl AppleMark<'_> {
-    /// A mark that is no more than a numbered box.
+    /// A mark with only a number and a box.
     pub fn new(number: usize, bounds: PixelBox) -> Self {
         Self {
             number,

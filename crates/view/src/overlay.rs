@@ -14,8 +14,8 @@ use pomona_cloud::{Camera, ColorImage};
 
 /// Draws picks over the colour image in which they were found.
 ///
-/// Apples' numbers, captions and reasons of refusal stand on labels that
-/// overlap neither each other nor the picture's edge. A label that finds no
+/// Apples' numbers, captions and reasons of refusal are written on labels that
+/// overlap neither each other nor the picture's edge. A label for which there is no
 /// room is left out, and the legend says how many were. Line widths and text
 /// follow the picture's height.
 #[derive(Clone, Copy, Debug)]
@@ -46,8 +46,8 @@ impl<'a> Overlay<'a> {
         }
     }
 
-    /// Whether a corner explains the colours (it does by default). A picture
-    /// too small for the legend does without.
+    /// Whether to draw a legend (by default it is drawn). A picture that is too small for it
+    /// has none.
     #[must_use]
     pub fn legend(mut self, shown: bool) -> Self {
         self.legend = shown;
@@ -203,7 +203,7 @@ fn beyond_tip(arrow: &ArrowShape, (width, height): (i32, i32)) -> Option<(i32, i
     Some(((tip.x + out * dx) as i32, (tip.y + out * dy) as i32))
 }
 
-/// What labels should not hide: boxes, and arrows all the more.
+/// What labels should not hide: boxes, and above all arrows.
 fn occupancy_of(sketches: &[Sketch], width: usize, height: usize, scale: f32) -> Occupancy {
     let mut occupancy = Occupancy::new(width, height);
     for sketch in sketches {

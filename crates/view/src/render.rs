@@ -11,7 +11,7 @@ pub struct RenderOptions {
     pub height: usize,
     /// Diameter of a point's disc, pixels; 0 counts as 1.
     pub point_size: usize,
-    /// Colour where no point is seen.
+    /// Background colour.
     pub background: [u8; 3],
     /// How strongly edges of depth are darkened (eye-dome lighting), so that
     /// shapes of one colour are seen; 0 leaves the points' colours as they are.

@@ -8,12 +8,12 @@ const GAP: usize = 8;
 
 /// One picture of a sheet.
 #[derive(Clone, Debug, PartialEq)]
-pub struct SheetPicture {
+pub struct ContactSheetImage {
     /// The image.
     pub image: ColorImage,
     /// Boxes drawn over it, in its pixels.
     pub marks: Vec<BoxMark>,
-    /// What stands below it.
+    /// The text below it.
     pub caption: String,
 }
 
@@ -23,9 +23,9 @@ pub struct SheetPicture {
 ///
 /// # Errors
 ///
-/// [`ViewError`] for an image that is none, and for a sheet without pictures, columns or side.
-pub fn picture_sheet(
-    pictures: &[SheetPicture],
+/// [`ViewError`] for an invalid image, and for a sheet without pictures, columns or side.
+pub fn contact_sheet(
+    pictures: &[ContactSheetImage],
     columns: usize,
     side: usize,
 ) -> Result<ColorImage, ViewError> {
@@ -66,7 +66,7 @@ pub fn picture_sheet(
     Ok(canvas.into_image())
 }
 
-fn scaled_with_marks(picture: &SheetPicture, side: usize) -> Result<ColorImage, ViewError> {
+fn scaled_with_marks(picture: &ContactSheetImage, side: usize) -> Result<ColorImage, ViewError> {
     let (width, height) = (picture.image.width, picture.image.height);
     if width == 0 || height == 0 || picture.image.pixels.len() != width * height {
         return Err(ViewError::PixelCount {
@@ -131,8 +131,8 @@ fn scaled(image: &ColorImage, width: usize, height: usize) -> ColorImage {
 mod tests {
     use super::*;
 
-    fn picture(width: usize, height: usize, color: [u8; 3]) -> SheetPicture {
-        SheetPicture {
+    fn picture(width: usize, height: usize, color: [u8; 3]) -> ContactSheetImage {
+        ContactSheetImage {
             image: ColorImage::filled(width, height, color),
             marks: Vec::new(),
             caption: "a.png".to_owned(),
@@ -146,7 +146,7 @@ mod tests {
             picture(20, 40, [0, 200, 0]),
             picture(1, 1, [0, 0, 200]),
         ];
-        let sheet = picture_sheet(&pictures, 2, 80).unwrap();
+        let sheet = contact_sheet(&pictures, 2, 80).unwrap();
         assert_eq!(sheet.width, 2 * 80 + 3 * GAP);
         let count = |color: [u8; 3]| sheet.pixels.iter().filter(|p| **p == color).count();
         assert_eq!(count([200, 0, 0]), 80 * 40);
@@ -163,9 +163,9 @@ mod tests {
 
     #[test]
     fn what_is_no_sheet_is_refused() {
-        assert!(picture_sheet(&[], 3, 80).is_err());
-        assert!(picture_sheet(&[picture(4, 4, [0; 3])], 0, 80).is_err());
-        assert!(picture_sheet(&[picture(4, 4, [0; 3])], 3, 0).is_err());
-        assert!(picture_sheet(&[picture(0, 4, [0; 3])], 3, 80).is_err());
+        assert!(contact_sheet(&[], 3, 80).is_err());
+        assert!(contact_sheet(&[picture(4, 4, [0; 3])], 0, 80).is_err());
+        assert!(contact_sheet(&[picture(4, 4, [0; 3])], 3, 0).is_err());
+        assert!(contact_sheet(&[picture(0, 4, [0; 3])], 3, 80).is_err());
     }
 }

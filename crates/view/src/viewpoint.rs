@@ -2,7 +2,7 @@ use crate::ViewError;
 use nalgebra::{Point3, Vector3};
 use std::f64::consts::PI;
 
-/// From where and how a cloud is looked at.
+/// The viewpoint from which a cloud is rendered.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Viewpoint {
     eye: Point3<f64>,
@@ -12,7 +12,7 @@ pub struct Viewpoint {
     projection: Projection,
 }
 
-/// How space becomes a picture.
+/// A projection onto the image plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Projection {
     /// Lines of sight meet in the eye; the field of view from top to bottom, radians.

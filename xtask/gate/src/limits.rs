@@ -67,7 +67,7 @@ impl Limits {
         for (i, suite) in limits.suites.iter().enumerate() {
             let id = suite.id();
             let twice = limits.suites[i + 1..].iter().any(|other| other.id() == id);
-            ensure!(!twice, "{id} stands twice");
+            ensure!(!twice, "{id} is given twice");
             ensure!(!suite.fields.is_empty(), "{id}: no field is limited");
             for (name, field) in &suite.fields {
                 ensure!(

@@ -45,7 +45,7 @@ impl Ablation {
             let twice = ablation.variants[i + 1..].iter().any(|v| v.name == *name);
             ensure!(
                 !twice && name != METHOD,
-                "{VARIANTS}: `{name}` stands twice"
+                "{VARIANTS}: `{name}` is given twice"
             );
             ensure!(
                 !variant.robust.is_empty(),

@@ -3,6 +3,7 @@
 use super::peers::build;
 use crate::workspace::{Workspace, cargo, root};
 use anyhow::{Context, Result, ensure};
+use pomona_statistics::{median, quantile};
 use serde::Deserialize;
 use std::{
     fmt::Write as _,
@@ -131,15 +132,13 @@ fn table(case: &str, answers: &[&Answer]) -> String {
         let own: Vec<&&Answer> = answers.iter().filter(|a| a.method == method).collect();
         let pair = |f: fn(&Answer) -> Option<f64>, digits: usize| {
             let mut numbers: Vec<f64> = own.iter().filter_map(|a| f(a)).collect();
-            numbers.sort_by(f64::total_cmp);
-            match (quantile(&numbers, 0.5), quantile(&numbers, 0.95)) {
+            match (median(&mut numbers), quantile(&mut numbers, 0.95)) {
                 (Some(m), Some(q)) => format!("{m:.digits$} {q:.digits$}"),
                 _ => "-".to_owned(),
             }
         };
         let answered = own.iter().filter(|a| a.rotation_deg.is_some()).count();
         let mut times: Vec<f64> = own.iter().map(|a| a.milliseconds).collect();
-        times.sort_by(f64::total_cmp);
         let _ = writeln!(
             text,
             "{method:<26} {answered:>8} {:>8} {:>17} {:>19} {:>19} {:>7.2}",
@@ -147,29 +146,15 @@ fn table(case: &str, answers: &[&Answer]) -> String {
             pair(|a| a.rotation_deg, 3),
             pair(|a| a.translation_mm, 2),
             pair(|a| a.fruit_mm, 2),
-            quantile(&times, 0.5).unwrap_or(f64::NAN)
+            median(&mut times).unwrap_or(f64::NAN)
         );
     }
     text
 }
 
-/// Of sorted numbers, by interpolation between neighbours.
-fn quantile(sorted: &[f64], share: f64) -> Option<f64> {
-    let at = share * (sorted.len().checked_sub(1)?) as f64;
-    let (low, high) = (sorted[at.floor() as usize], sorted[at.ceil() as usize]);
-    Some(low + (high - low) * at.fract())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn quantiles_lie_between_neighbours() {
-        assert_eq!(quantile(&[], 0.5), None);
-        assert_eq!(quantile(&[1.0, 2.0, 4.0], 0.5), Some(2.0));
-        assert_eq!(quantile(&[1.0, 2.0], 0.5), Some(1.5));
-    }
 
     #[test]
     fn a_method_that_refuses_all_is_in_the_table() {

@@ -56,7 +56,7 @@ fn least_slack(world: &World, planner: &Planner, approach: &Approach) -> f64 {
         .iter()
         .filter(|p| {
             // The band about an apple makes a point that apple's, and then an obstacle with its margin;
-            // those of the target are not looked at.
+            // those of the target are not checked.
             let own = &world.seen_apples[approach.apple];
             own.signed_distance(p) > planner.config().clearance.own_band_m + 0.012
                 && (*p - grasp).norm() < near + 1.0

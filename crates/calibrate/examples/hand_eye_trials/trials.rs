@@ -36,7 +36,7 @@ pub(crate) struct Trial {
 
 pub(crate) fn trial(case: &str, seed: u64) -> Trial {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
-    // The camera looks at the workspace from 0.8 m; the target stands off the flange.
+    // The camera looks at the workspace from 0.8 m; the target is mounted away from the flange.
     let look = UnitQuaternion::from_euler_angles(-PI / 2.0, 0.0, PI / 2.0);
     let robot_from_camera = Isometry3::from_parts(
         Translation3::new(1.4, 0.1, 0.5),

@@ -5,12 +5,28 @@ use super::search::{needed, search};
 use crate::{CalibrateError, Options};
 use nalgebra::{Matrix3, Point3, Vector3};
 use rand_core::Rng;
+use std::ops::Range;
 
 /// Scales this close to 1 are a camera's error of depth, not a mistake.
 pub(crate) const SCALE_TOLERANCE: f64 = 0.02;
 
 /// Points this close to a line, as a share of their length along it, do not fix the turn about it.
 const LINE: f64 = 0.02;
+
+/// Points whose extent across a line exceeds the noise by this factor are not on it.
+const LINE_SIGMAS: f64 = 3.0;
+
+/// Ratio of the extents from which the robot's points are taken to be in millimetres.
+const MILLIMETRES_RATIO: f64 = 100.0;
+
+/// Scales outside of this range come from points that nearly coincide.
+const PLAUSIBLE_SCALES: Range<f64> = 1e-4..1e4;
+
+/// Largest natural logarithm of the ratio at which a scale is recognised as that of a unit.
+const UNIT_TOLERANCE: f64 = 0.1;
+
+/// Metres in an inch.
+const INCH_M: f64 = 0.0254;
 
 /// Refuses points on a line; `sigma_m` is their noise, or 0.
 pub(crate) fn check_line(points: &[Point3<f64>], sigma_m: f64) -> Result<(), CalibrateError> {
@@ -27,7 +43,7 @@ pub(crate) fn check_line(points: &[Point3<f64>], sigma_m: f64) -> Result<(), Cal
         .collect();
     extents.sort_by(f64::total_cmp);
     let (along, across) = (extents[2], extents[1].hypot(extents[0]));
-    if across > LINE * along && across > 3.0 * sigma_m {
+    if across > LINE * along && across > LINE_SIGMAS * sigma_m {
         return Ok(());
     }
     Err(CalibrateError::Collinear {
@@ -50,7 +66,7 @@ pub(crate) fn explain<R: Rng + ?Sized>(
         (squares.sum::<f64>() / points.len() as f64).sqrt()
     };
     let ratio = extent(&pairs.robot) / extent(&pairs.camera);
-    let unit = if ratio > 100.0 { 1e3 } else { 1.0 };
+    let unit = if ratio > MILLIMETRES_RATIO { 1e3 } else { 1.0 };
     let tolerance_m = options.translation_tolerance_m * unit;
 
     let mirrored = search(&pairs.mirrored(), tolerance_m, options, rng);
@@ -68,18 +84,17 @@ pub(crate) fn explain<R: Rng + ?Sized>(
         .into_iter()
         .flatten()
         .max_by_key(|(_, inliers)| inliers.len())?;
-    // A scale of almost nothing brings all points together.
-    let plausible = (1e-4..1e4).contains(&model.scale);
+    let plausible = PLAUSIBLE_SCALES.contains(&model.scale);
     (plausible && inliers.len() >= needed(pairs.robot.len())).then(|| wrong_scale(model.scale))
 }
 
 pub(crate) fn wrong_scale(scale: f64) -> CalibrateError {
-    let near = |target: f64| (scale / target).ln().abs() < 0.1;
+    let near = |target: f64| (scale / target).ln().abs() < UNIT_TOLERANCE;
     let cause = if near(1000.0) {
         "the robot's points look like millimetres taken for metres; divide them by 1000"
     } else if near(0.001) {
         "the camera's points look like millimetres taken for metres; divide them by 1000"
-    } else if near(0.0254) || near(39.37) {
+    } else if near(INCH_M) || near(1.0 / INCH_M) {
         "one of the two looks like inches; give metres"
     } else {
         "check the units of both, the camera's depth scale and its intrinsics"

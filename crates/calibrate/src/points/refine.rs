@@ -18,6 +18,12 @@ const USED: f64 = 2.0;
 
 const MAX_ROUNDS: usize = 50;
 
+/// Relative change of the noise at which the rounds end.
+const CONVERGED: f64 = 1e-9;
+
+/// Components of a residual.
+const COMPONENTS: f64 = 3.0;
+
 type Loss = StudentT<3>;
 
 /// A model with its noise, weights and covariance.
@@ -60,7 +66,7 @@ pub(super) fn refine(pairs: &PointPairs, inliers: &[usize], start: &Similarity) 
             .zip(&weights)
             .map(|(&i, w)| w * r[i] * r[i])
             .sum();
-        let variance = Loss::variance(squares, 3.0, kept.len() as f64, USED);
+        let variance = Loss::variance(squares, COMPONENTS, kept.len() as f64, USED);
         let next_sigma = variance.sqrt().max(FLOOR_M);
         let gate = Loss::gate().sqrt() * next_sigma;
         let gated: Vec<usize> = (0..n).filter(|&i| r[i] <= gate).collect();
@@ -69,7 +75,7 @@ pub(super) fn refine(pairs: &PointPairs, inliers: &[usize], start: &Similarity) 
         } else {
             kept.clone()
         };
-        let settled = gated == kept && (next_sigma / sigma_m).ln().abs() < 1e-9;
+        let settled = gated == kept && (next_sigma / sigma_m).ln().abs() < CONVERGED;
         (model, sigma_m, kept) = (next, next_sigma, gated);
         if settled {
             break;

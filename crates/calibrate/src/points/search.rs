@@ -3,6 +3,7 @@
 use super::estimator::PointPairs;
 use super::similarity::Similarity;
 use crate::Options;
+use crate::robust::MAX_DRAWS;
 use pomona_ransac::{FixedCount, LeastSquares, Msac, Ransac};
 use rand_core::Rng;
 
@@ -22,7 +23,7 @@ pub(super) fn search<R: Rng + ?Sized>(
 ) -> Option<(Similarity, Vec<usize>)> {
     let engine = Ransac::new(Msac::within(tolerance_m))
         .local_optimization(LeastSquares::default())
-        .stopping(FixedCount::new(u64::from(options.hypotheses)).max_draws(20_000));
+        .stopping(FixedCount::new(u64::from(options.hypotheses)).max_draws(MAX_DRAWS));
     let report = engine.run(pairs, rng).ok()?;
     Some((report.model, report.inliers))
 }

@@ -2,7 +2,7 @@
 
 use super::motions::{self, LEAST_ROTATION_RAD};
 use super::refine::least_squares;
-use super::system::{HandEyeModel, Pair, Scale};
+use super::system::{PosePair, PoseSolution, Scale};
 use super::{daniilidis, park, shah};
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion, Vector3};
 use pomona_ransac::{Candidates, Estimator};
@@ -23,14 +23,14 @@ pub enum PoseSolver {
 
 impl PoseSolver {
     /// The published algorithm on all `pairs` alike, without weights or refinement.
-    pub(crate) fn solve(self, pairs: &[Pair]) -> Option<HandEyeModel> {
+    pub(crate) fn solve(self, pairs: &[PosePair]) -> Option<PoseSolution> {
         let camera = match self {
             Self::Park => park::solve(&motions::between(pairs)),
             Self::Daniilidis => daniilidis::solve(&motions::between(pairs)),
             Self::Shah => return shah::solve(pairs),
         }?;
         let target = mean(pairs.iter().map(|p| p.carrier.inv_mul(&(camera * p.seen))))?;
-        let model = HandEyeModel { camera, target };
+        let model = PoseSolution { camera, target };
         model.is_finite().then_some(model)
     }
 }
@@ -55,21 +55,21 @@ fn mean(transforms: impl Iterator<Item = Isometry3<f64>>) -> Option<Isometry3<f6
 /// Samples of three, and an offset in units of the tolerances as the residual.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PosePairs<'a> {
-    pub(crate) pairs: &'a [Pair],
+    pub(crate) pairs: &'a [PosePair],
     pub(crate) solver: PoseSolver,
     pub(crate) tolerance: Scale,
 }
 
 impl Estimator for PosePairs<'_> {
-    type Model = HandEyeModel;
+    type Model = PoseSolution;
     const SAMPLE_SIZE: usize = 3;
 
     fn len(&self) -> usize {
         self.pairs.len()
     }
 
-    fn fit(&self, sample: &[usize], candidates: &mut Candidates<HandEyeModel>) {
-        let pairs: Vec<Pair> = sample.iter().map(|&i| self.pairs[i]).collect();
+    fn fit(&self, sample: &[usize], candidates: &mut Candidates<PoseSolution>) {
+        let pairs: Vec<PosePair> = sample.iter().map(|&i| self.pairs[i]).collect();
         // Three poses that hardly turn, or about one axis only, leave the answer to the noise.
         let spread = motions::spread(&pairs);
         if spread.across_rad < LEAST_ROTATION_RAD {
@@ -80,12 +80,12 @@ impl Estimator for PosePairs<'_> {
         }
     }
 
-    fn refit(&self, inliers: &[usize], current: &HandEyeModel) -> Option<HandEyeModel> {
-        let pairs: Vec<Pair> = inliers.iter().map(|&i| self.pairs[i]).collect();
+    fn refit(&self, inliers: &[usize], current: &PoseSolution) -> Option<PoseSolution> {
+        let pairs: Vec<PosePair> = inliers.iter().map(|&i| self.pairs[i]).collect();
         least_squares(&pairs, &vec![1.0; pairs.len()], current, &self.tolerance)
     }
 
-    fn residuals(&self, model: &HandEyeModel, block: Range<usize>, out: &mut [f64]) {
+    fn residuals(&self, model: &PoseSolution, block: Range<usize>, out: &mut [f64]) {
         for (r, i) in out.iter_mut().zip(block) {
             *r = model.offset(&self.pairs[i]).squared(&self.tolerance).sqrt();
         }

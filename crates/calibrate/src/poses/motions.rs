@@ -1,6 +1,6 @@
 //! Relative motions A X = X B, and whether they determine X.
 
-use super::system::Pair;
+use super::system::PosePair;
 use crate::CalibrateError;
 use nalgebra::{Isometry3, Matrix3, Vector3};
 use pomona_transforms::twist;
@@ -18,7 +18,7 @@ pub(crate) struct Motion {
 }
 
 /// The motions between all pairs of samples: A X = X B, free of where the target is.
-pub(crate) fn between(pairs: &[Pair]) -> Vec<Motion> {
+pub(crate) fn between(pairs: &[PosePair]) -> Vec<Motion> {
     let mut motions = Vec::new();
     for (j, b) in pairs.iter().enumerate() {
         for a in &pairs[..j] {
@@ -42,7 +42,7 @@ pub struct MotionSpread {
 }
 
 /// The spread of rotations of the robot, as it told them itself.
-pub(crate) fn spread(pairs: &[Pair]) -> MotionSpread {
+pub(crate) fn spread(pairs: &[PosePair]) -> MotionSpread {
     let turns: Vec<Vector3<f64>> = between(pairs)
         .iter()
         .map(|m| twist::rotation_vector(&m.carrier.rotation))
@@ -61,7 +61,7 @@ pub(crate) fn spread(pairs: &[Pair]) -> MotionSpread {
 
 /// Refuses motions from which X does not follow: rotations that are all small, or all about one axis
 /// (Tsai and Lenz 1989, doi 10.1109/70.34770, section IV: two rotations about axes that differ).
-pub(crate) fn check(pairs: &[Pair]) -> Result<MotionSpread, CalibrateError> {
+pub(crate) fn check(pairs: &[PosePair]) -> Result<MotionSpread, CalibrateError> {
     let spread = spread(pairs);
     if !(spread.largest_rad >= LEAST_ROTATION_RAD) {
         return Err(CalibrateError::MotionsTooSmall {

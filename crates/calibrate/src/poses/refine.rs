@@ -1,6 +1,6 @@
 //! Joint refinement of both unknowns on SE(3) × SE(3).
 
-use super::system::{HandEyeModel, Matrix12, Offset, Pair, Scale, normal_equations};
+use super::system::{Matrix12, PosePair, PoseResidual, PoseSolution, Scale, normal_equations};
 use crate::robust::{MEDIAN_NORM_OF_3, StudentT};
 use pomona_statistics::median;
 
@@ -9,7 +9,21 @@ pub(crate) const LEAST_POSES: usize = 4;
 
 const MAX_STEPS: usize = 50;
 const MAX_ROUNDS: usize = 30;
+/// Factor on the diagonal of the normal matrix: at the start, its bounds, and the factors by which it falls and rises.
+const FIRST_DAMPING: f64 = 1e-9;
+const MIN_DAMPING: f64 = 1e-12;
 const MAX_DAMPING: f64 = 1e10;
+const DAMPING_FALL: f64 = 0.1;
+const DAMPING_RISE: f64 = 10.0;
+
+/// Predicted relative decrease of the objective at which the steps end.
+const CONVERGED_STEP: f64 = 1e-14;
+
+/// Relative change of the noise at which the rounds end.
+const CONVERGED_NOISE: f64 = 1e-6;
+
+/// Components of each part of an offset, rotation and translation.
+const COMPONENTS: f64 = 3.0;
 
 /// Samples whose degrees of freedom the twelve unknowns use up.
 const USED: f64 = 2.0;
@@ -27,14 +41,14 @@ type Loss = StudentT<6>;
 /// doi 10.1137/0111030) with steps on the manifold; `None` where the samples do not determine
 /// it or are not finite.
 pub(crate) fn least_squares(
-    pairs: &[Pair],
+    pairs: &[PosePair],
     weights: &[f64],
-    start: &HandEyeModel,
+    start: &PoseSolution,
     scale: &Scale,
-) -> Option<HandEyeModel> {
+) -> Option<PoseSolution> {
     let mut model = *start;
     let (mut normal, mut descent, mut objective) = normal_equations(pairs, weights, &model, scale);
-    let mut damping = 1e-9;
+    let mut damping = FIRST_DAMPING;
     for _ in 0..MAX_STEPS {
         if !objective.is_finite() {
             return None;
@@ -50,9 +64,10 @@ pub(crate) fn least_squares(
                 let candidate = model.stepped(&step);
                 let (n, d, o) = normal_equations(pairs, weights, &candidate, scale);
                 if o <= objective {
-                    let converged = step.dot(&descent) <= 1e-14 * objective || o >= objective;
+                    let converged =
+                        step.dot(&descent) <= CONVERGED_STEP * objective || o >= objective;
                     (model, normal, descent, objective) = (candidate, n, d, o);
-                    damping = (damping * 0.1).max(1e-12);
+                    damping = (damping * DAMPING_FALL).max(MIN_DAMPING);
                     if converged {
                         return model.is_finite().then_some(model);
                     }
@@ -60,13 +75,13 @@ pub(crate) fn least_squares(
                     break;
                 }
             }
-            damping *= 10.0;
+            damping *= DAMPING_RISE;
         }
         if !improved {
             break;
         }
     }
-    // A normal matrix that cannot be factored belongs to samples that leave something open.
+    // A normal matrix that cannot be factored belongs to samples that do not determine the answer.
     normal.cholesky()?;
     model.is_finite().then_some(model)
 }
@@ -74,7 +89,7 @@ pub(crate) fn least_squares(
 /// A model with its noise, weights and covariance.
 #[derive(Clone, Debug)]
 pub(crate) struct Fit {
-    pub(crate) model: HandEyeModel,
+    pub(crate) model: PoseSolution,
     /// Standard deviations of one component of an offset.
     pub(crate) noise: Scale,
     /// Weight of each sample; 0 for those that are rejected.
@@ -96,7 +111,7 @@ impl Fit {
 ///
 /// Weights and noise are those of a Student t, found in turns with the model; a sample beyond the gate of
 /// a thousandth is left out, and taken in again where it comes back.
-pub(crate) fn robust(pairs: &[Pair], inliers: &[usize], start: &HandEyeModel) -> Option<Fit> {
+pub(crate) fn robust(pairs: &[PosePair], inliers: &[usize], start: &PoseSolution) -> Option<Fit> {
     let mut model = *start;
     let mut kept: Vec<bool> = (0..pairs.len()).map(|i| inliers.contains(&i)).collect();
     let mut noise = first_noise(pairs, &kept, &model)?;
@@ -130,7 +145,7 @@ pub(crate) fn robust(pairs: &[Pair], inliers: &[usize], start: &HandEyeModel) ->
     finish(pairs, model, noise, &kept)
 }
 
-fn finish(pairs: &[Pair], model: HandEyeModel, noise: Scale, kept: &[bool]) -> Option<Fit> {
+fn finish(pairs: &[PosePair], model: PoseSolution, noise: Scale, kept: &[bool]) -> Option<Fit> {
     let squared: Vec<f64> = pairs
         .iter()
         .map(|p| model.offset(p).squared(&noise))
@@ -158,13 +173,13 @@ fn weigh(squared: &[f64], kept: &[bool]) -> Vec<f64> {
 }
 
 fn close(a: &Scale, b: &Scale) -> bool {
-    (a.rotation_rad / b.rotation_rad).ln().abs() < 1e-6
-        && (a.translation_m / b.translation_m).ln().abs() < 1e-6
+    (a.rotation_rad / b.rotation_rad).ln().abs() < CONVERGED_NOISE
+        && (a.translation_m / b.translation_m).ln().abs() < CONVERGED_NOISE
 }
 
 /// The noise by medians, before anything is weighted.
-fn first_noise(pairs: &[Pair], kept: &[bool], model: &HandEyeModel) -> Option<Scale> {
-    let size = |part: fn(&Offset) -> f64| {
+fn first_noise(pairs: &[PosePair], kept: &[bool], model: &PoseSolution) -> Option<Scale> {
+    let size = |part: fn(&PoseResidual) -> f64| {
         let offsets = pairs.iter().zip(kept).filter(|(_, k)| **k);
         let mut sizes: Vec<f64> = offsets.map(|(p, _)| part(&model.offset(p))).collect();
         Some(median(&mut sizes)? / MEDIAN_NORM_OF_3)
@@ -176,7 +191,7 @@ fn first_noise(pairs: &[Pair], kept: &[bool], model: &HandEyeModel) -> Option<Sc
 }
 
 /// The noise by weighted squares.
-fn noise_of(pairs: &[Pair], weights: &[f64], model: &HandEyeModel) -> Scale {
+fn noise_of(pairs: &[PosePair], weights: &[f64], model: &PoseSolution) -> Scale {
     let n = weights.iter().filter(|w| **w > 0.0).count() as f64;
     let (mut rotation, mut translation) = (0.0, 0.0);
     for (pair, weight) in pairs.iter().zip(weights) {
@@ -184,7 +199,7 @@ fn noise_of(pairs: &[Pair], weights: &[f64], model: &HandEyeModel) -> Scale {
         rotation += weight * offset.rotation.norm_squared();
         translation += weight * offset.translation.norm_squared();
     }
-    let sigma = |squares| Loss::variance(squares, 3.0, n, USED).sqrt();
+    let sigma = |squares| Loss::variance(squares, COMPONENTS, n, USED).sqrt();
     Scale {
         rotation_rad: sigma(rotation).max(FLOOR.rotation_rad),
         translation_m: sigma(translation).max(FLOOR.translation_m),

@@ -1,6 +1,6 @@
 //! A X = Z B: both unknowns at once, from the poses themselves and not from motions.
 
-use super::system::{HandEyeModel, Pair, nearest_rotation};
+use super::system::{PosePair, PoseSolution, nearest_rotation};
 use nalgebra::{Isometry3, Matrix3, SMatrix, SVector, Translation3, Vector3};
 
 type Matrix9 = SMatrix<f64, 9, 9>;
@@ -14,7 +14,7 @@ type Vector9 = SVector<f64, 9>;
 ///
 /// Source: Shah 2013, "Solving the robot-world/hand-eye calibration problem using the Kronecker
 /// product", J. Mechanisms and Robotics 5(3), doi 10.1115/1.4024473, section 3.
-pub(crate) fn solve(pairs: &[Pair]) -> Option<HandEyeModel> {
+pub(crate) fn solve(pairs: &[PosePair]) -> Option<PoseSolution> {
     let mut k = Matrix9::zeros();
     for pair in pairs {
         let c = pair.carrier.rotation.to_rotation_matrix().into_inner();
@@ -44,10 +44,10 @@ pub(crate) fn solve(pairs: &[Pair]) -> Option<HandEyeModel> {
 
 /// `R_C t_Q − t_X = R_X t_M − t_C` in the sense of least squares.
 fn translations(
-    pairs: &[Pair],
+    pairs: &[PosePair],
     camera: &nalgebra::UnitQuaternion<f64>,
     target: &nalgebra::UnitQuaternion<f64>,
-) -> Option<HandEyeModel> {
+) -> Option<PoseSolution> {
     let mut normal = SMatrix::<f64, 6, 6>::zeros();
     let mut rhs = SVector::<f64, 6>::zeros();
     for pair in pairs {
@@ -66,7 +66,7 @@ fn translations(
         let t: Vector3<f64> = t.fixed_rows::<3>(at).into();
         Isometry3::from_parts(Translation3::from(t), *rotation)
     };
-    let model = HandEyeModel {
+    let model = PoseSolution {
         camera: place(3, camera),
         target: place(0, target),
     };

@@ -14,14 +14,14 @@ pub(crate) type Vector12 = SVector<f64, 12>;
 /// target is on the other part. M = `camera_from_target` was seen, and
 /// C = `carrier_from_other` was told by the robot.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Pair {
+pub(crate) struct PosePair {
     pub(crate) carrier: Isometry3<f64>,
     pub(crate) seen: Isometry3<f64>,
 }
 
 /// Both unknowns.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct HandEyeModel {
+pub(crate) struct PoseSolution {
     /// X, `carrier_from_camera`.
     pub(crate) camera: Isometry3<f64>,
     /// Q, `other_from_target`.
@@ -30,14 +30,14 @@ pub(crate) struct HandEyeModel {
 
 /// Difference between the predicted and the observed pose of the target, in the camera's frame.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Offset {
+pub(crate) struct PoseResidual {
     /// Rotation vector, rad.
     pub(crate) rotation: Vector3<f64>,
     /// m.
     pub(crate) translation: Vector3<f64>,
 }
 
-impl Offset {
+impl PoseResidual {
     /// Squared, in units of the two scales.
     pub(crate) fn squared(&self, scale: &Scale) -> f64 {
         self.rotation.norm_squared() / scale.rotation_rad.powi(2)
@@ -52,12 +52,12 @@ pub(crate) struct Scale {
     pub(crate) translation_m: f64,
 }
 
-impl HandEyeModel {
+impl PoseSolution {
     /// M̂ = X⁻¹ C Q against M.
-    pub(crate) fn offset(&self, pair: &Pair) -> Offset {
+    pub(crate) fn offset(&self, pair: &PosePair) -> PoseResidual {
         let predicted = self.camera.inv_mul(&(pair.carrier * self.target));
         let turn = predicted.rotation * pair.seen.rotation.inverse();
-        Offset {
+        PoseResidual {
             rotation: twist::rotation_vector(&turn),
             translation: predicted.translation.vector - pair.seen.translation.vector,
         }
@@ -67,7 +67,7 @@ impl HandEyeModel {
     ///
     /// With both perturbed `M̂ = X̂⁻¹ Exp(η) C Q̂`, where `η = Ad(C) ξ_Q − ξ_X`; η = (ω, υ) turns M̂ by
     /// `R_Xᵀ ω` and moves its origin by `R_Xᵀ (ω × t + υ)`, t being that of C Q̂.
-    pub(crate) fn jacobian(&self, pair: &Pair, offset: &Offset) -> Jacobian {
+    pub(crate) fn jacobian(&self, pair: &PosePair, offset: &PoseResidual) -> Jacobian {
         let into_camera = self
             .camera
             .rotation
@@ -113,9 +113,9 @@ impl HandEyeModel {
 
 /// `JᵀWJ` and `−JᵀWr` of weighted samples, in units of the scale.
 pub(crate) fn normal_equations(
-    pairs: &[Pair],
+    pairs: &[PosePair],
     weights: &[f64],
-    model: &HandEyeModel,
+    model: &PoseSolution,
     scale: &Scale,
 ) -> (Matrix12, Vector12, f64) {
     let inverse = Vector6::from_fn(|i, _| {
@@ -178,9 +178,9 @@ mod tests {
         fn derivatives_are_differences(
             camera in isometry(), target in isometry(), carrier in isometry(), noise in prop::array::uniform6(-0.3..0.3f64),
         ) {
-            let model = HandEyeModel { camera, target };
+            let model = PoseSolution { camera, target };
             let seen = twist::exp(&Vector6::from(noise)) * camera.inv_mul(&(carrier * target));
-            let pair = Pair { carrier, seen };
+            let pair = PosePair { carrier, seen };
             let offset = model.offset(&pair);
             let j = model.jacobian(&pair, &offset);
             for k in 0..12 {

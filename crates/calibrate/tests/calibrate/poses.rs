@@ -23,7 +23,7 @@ fn isometry(rng: &mut ChaCha8Rng, reach: f64, turn: f64) -> Isometry3<f64> {
     Isometry3::from_parts(Translation3::from(t), UnitQuaternion::from_scaled_axis(w))
 }
 
-struct Scene {
+struct SyntheticRig {
     /// Camera on its carrier: the base, or the flange.
     camera: Isometry3<f64>,
     /// Target on the other part.
@@ -32,7 +32,7 @@ struct Scene {
 }
 
 /// `in_hand`: the camera is on the flange. Noise is per component, rad and m.
-fn scene(n: usize, in_hand: bool, noise: (f64, f64), turn: f64, seed: u64) -> Scene {
+fn scene(n: usize, in_hand: bool, noise: (f64, f64), turn: f64, seed: u64) -> SyntheticRig {
     let rng = &mut ChaCha8Rng::seed_from_u64(seed);
     let (camera, target) = (isometry(rng, 1.0, 1.0), isometry(rng, 0.3, 1.0));
     let samples = (0..n)
@@ -53,7 +53,7 @@ fn scene(n: usize, in_hand: bool, noise: (f64, f64), turn: f64, seed: u64) -> Sc
             }
         })
         .collect();
-    Scene {
+    SyntheticRig {
         camera,
         target,
         samples,

@@ -13,7 +13,7 @@ use pomona_labels::{
     DETECTION_SCHEMA, DetectionEvaluation, DetectionOptions, DetectionSource, GroundTruthBox,
     LabelledDataset, MatchedImage, detection_page, evaluate_detections, read_detections,
 };
-use pomona_view::{BoxKind, BoxMark, SheetPicture, picture_sheet};
+use pomona_view::{BoxKind, BoxMark, ContactSheetImage, contact_sheet};
 use std::path::{Path, PathBuf};
 
 /// Heading of these options.
@@ -30,10 +30,10 @@ pub(super) struct DetectionArguments {
     /// frame with boxes, or a folder of frames.
     #[arg(long, value_name = "FOLDER", help_heading = HEADING, conflicts_with_all = ["subjects", "methods", "variants", "SettingValues", "calipers"])]
     pub(super) detection: Option<PathBuf>,
-    /// A model to measure (ONNX), or `built-in`; may be repeated. Default: built-in, where no --boxes are given.
+    /// A model to measure (ONNX), or `built-in`; may be repeated. Default: built-in, unless --boxes are given.
     #[arg(long = "model", value_name = "FILE", value_parser = parse_model, requires = "detection", help_heading = HEADING)]
     models: Vec<Model>,
-    /// Boxes that another program found in these images: a COCO result list, a COCO file with scores, or a folder with a
+    /// Detections of another program in these images: a COCO result list, a COCO file with scores, or a folder with a
     /// YOLO or VOC file for each image; may be repeated.
     #[arg(long, value_name = "FILE|FOLDER", requires = "detection", help_heading = HEADING)]
     boxes: Vec<PathBuf>,
@@ -188,7 +188,7 @@ impl DetectionArguments {
         for (number, one) in opened.iter().enumerate() {
             if opened[..number].iter().any(|other| other.name == one.name) {
                 bail!(
-                    "--model and --boxes: `{}` stands twice; give each once, and files names of their own",
+                    "--model and --boxes: `{}` is given twice; give each once, and files names of their own",
                     one.name
                 );
             }
@@ -251,7 +251,7 @@ fn sheets(
         for worst in &result.worst {
             let pairs = dataset.images.iter().zip(matched);
             for (image, matched) in pairs.filter(|(image, _)| image.name == worst.image) {
-                pictures.push(SheetPicture {
+                pictures.push(ContactSheetImage {
                     image: ColorImage::read(&image.path)?,
                     marks: marks(matched, evaluation.threshold),
                     caption: format!(
@@ -266,7 +266,7 @@ fn sheets(
             continue;
         }
         let name = sheet_name(number + 1);
-        picture_sheet(&pictures, SHEET_COLUMNS, SHEET_SIDE)?.write(output.file(&name))?;
+        contact_sheet(&pictures, SHEET_COLUMNS, SHEET_SIDE)?.write(output.file(&name))?;
         names.push(name);
     }
     Ok(names)
@@ -299,11 +299,11 @@ fn marks(matched: &MatchedImage, threshold: f64) -> Vec<BoxMark> {
     let true_positives = matched
         .true_positives(threshold)
         .into_iter()
-        .map(detected(BoxKind::Found));
+        .map(detected(BoxKind::TruePositive));
     let false_positives = matched
         .false_positives(threshold)
         .into_iter()
-        .map(detected(BoxKind::Further));
+        .map(detected(BoxKind::FalsePositive));
     let missed = matched.missed(threshold).into_iter().map(missed);
     true_positives
         .chain(missed)

@@ -1,4 +1,4 @@
-//! Frames without boxes: the model that comes along finds the apples, and all that follows works on them.
+//! Frames without boxes: the built-in model detects the apples, and all that follows works on them.
 
 use crate::binary::pomona;
 use crate::schema::Schema;

@@ -71,7 +71,7 @@ fn two_programs_in_one_run() {
     let run = pomona(&line(&dir, &["good", "poor.json"], &["--label-class", "0"]));
     // Detections of the class 1 find no label then.
     assert_eq!((run.code, &*run.err), (0, ""), "{}", run.out);
-    for word in ["good", "poor", "AP50", "poor less good", "written to"] {
+    for word in ["good", "poor", "AP50", "poor - good", "written to"] {
         assert!(run.out.contains(word), "no {word} in {}", run.out);
     }
     let names: Vec<_> = tree(&dir.path().join("out"))

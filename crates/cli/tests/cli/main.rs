@@ -15,6 +15,7 @@ mod detected;
 mod detection;
 mod fuse;
 mod inspect;
+mod large_fruit;
 mod pick;
 mod real_frames;
 mod robot;

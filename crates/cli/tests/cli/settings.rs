@@ -1,5 +1,8 @@
 use crate::binary::pomona;
 use crate::scene::Bench;
+use crate::schema::Schema;
+use serde_json::{Value, json};
+use std::path::{Path, PathBuf};
 
 #[test]
 fn printed_settings_change_nothing() {
@@ -20,6 +23,14 @@ fn printed_settings_change_nothing() {
     ] {
         assert!(printed.contains(part), "{part}: {printed}");
     }
+}
+
+#[test]
+fn printed_settings_of_a_robot_change_nothing() {
+    let printed = pomona(&["config", "--robot"]).succeeded().out;
+    let read: pomona::ApproachConfig = pomona_settings::parse(&printed, "robot.toml").unwrap();
+    assert_eq!(read, pomona::ApproachConfig::default());
+    assert!(printed.contains("\n# start_m = [0.3, 0.0, 0.5]\n"));
 }
 
 #[test]
@@ -68,4 +79,90 @@ fn settings_reach_the_method() {
     };
     assert_eq!(run("20"), "picked");
     assert_ne!(run("45"), "picked");
+}
+
+/// `evaluate` takes settings as `pick` does: what no confidence reaches is refused there too.
+#[test]
+fn settings_reach_the_evaluation() {
+    let bench = Bench::new();
+    let out = bench.text("evaluated");
+    let base = ["evaluate", "lab15", "--count", "1", "--json", "--out", &out];
+    let picked = |flags: &[&str]| {
+        let result = pomona(&[&base[..], flags].concat()).succeeded().json();
+        result["results"][0]["answered"]["count"].clone()
+    };
+    let (as_it_is, never) = (picked(&[]), picked(&["--set", "robust.least_confidence=1"]));
+    assert_eq!(as_it_is, 1);
+    assert_ne!(never, 1);
+    pomona(&[&base[..], &["--set", "robust.least_confidenc=1"]].concat())
+        .refused(&["did you mean `robust.least_confidence`?"]);
+    pomona(&[&base[..], &["--radius-max-mm", "1"]].concat()).refused(&["fruit.radius_max_m"]);
+}
+
+fn docs(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../../docs")
+        .join(name)
+}
+
+/// `pomona config --format json-schema > docs/settings.schema.json` brings a file up to date.
+#[test]
+fn the_schemas_in_the_docs_are_those_of_the_declarations() {
+    let robot = &["--robot"][..];
+    for (name, flags) in [
+        ("settings.schema.json", &[][..]),
+        ("robot.schema.json", robot),
+    ] {
+        let printed = pomona(&[&["config", "--format", "json-schema"], flags].concat());
+        let printed = printed.succeeded().out;
+        let written = std::fs::read_to_string(docs(name)).unwrap();
+        assert!(printed == written, "docs/{name} is out of date");
+    }
+}
+
+#[test]
+fn the_schema_accepts_what_is_read_and_refuses_the_rest() {
+    let schema = Schema::read("settings.schema.json");
+    let defaults = serde_json::to_value(pomona::Config::default().with(|c| {
+        c.robust.noise_m = Some([0.001, 0.0, 0.0]);
+        c.robust.radius_mean_m = Some(0.04);
+        c.robust.radius_sd_m = Some(0.01);
+    }))
+    .unwrap();
+    schema.accepts(&defaults);
+    schema.accepts(&json!({}));
+    for (place, new) in [
+        ("/method", json!("magic")),
+        ("/papr", json!({})),
+        ("/paper/sphere_band", json!(1.0)),
+        ("/paper/sphere_iterations", json!(0)),
+        ("/paper/sphere_iterations", json!(1.5)),
+        ("/robust/noise_m", json!([0.001, 0.0])),
+        ("/robust/radius_max_m", json!(0.05)),
+        ("/detection/depth_check", json!(1)),
+    ] {
+        schema.refuses(&defaults, place, Some(new));
+    }
+    let text = std::fs::read_to_string(docs("settings-time-of-flight.toml")).unwrap();
+    let file: Value = toml::from_str(&text).unwrap();
+    schema.accepts(&file);
+}
+
+#[test]
+fn the_settings_in_the_docs_are_settings() {
+    let path = docs("settings-time-of-flight.toml");
+    let config = pomona::Config::read(path).unwrap();
+    assert_eq!(config.robust.rim_share, 0.15);
+}
+
+#[test]
+fn tables_explain_every_setting() {
+    for (flags, part) in [
+        (&[][..], "| `radius_max_m` | `0.05` | metres |"),
+        (&["--robot"], "| `jaw_width_m` | `0.1` | metres |"),
+    ] {
+        let out = pomona(&[&["config", "--format", "markdown"], flags].concat());
+        let out = out.succeeded().out;
+        assert!(out.contains(part), "{out}");
+    }
 }

@@ -27,7 +27,7 @@ pub enum LabelKind {
 }
 
 impl LabelledBox {
-    /// A box of which nothing else is known.
+    /// A box without further information.
     pub fn new(bounds: PixelBox) -> Self {
         Self {
             bounds,

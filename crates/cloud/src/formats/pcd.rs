@@ -3,16 +3,16 @@
 //! What `pcd-rs` does not do: it trusts the header's counts (memory for any claimed size,
 //! and a panic where compressed columns are shorter than the header says), so they are
 //! checked against the file first; it reads static records only where a file has exactly
-//! their fields, so [`Record`] picks its fields by name; it takes a packed `rgb` through
+//! their fields, so [`PcdPoint`] picks its fields by name; it takes a packed `rgb` through
 //! f32 text, which turns opaque colours into NaN; and it does not interpret WIDTH and HEIGHT.
 
-mod record;
+mod point;
 
 use super::claim::check_claim;
 use crate::PointCloud;
 use pcd_rs::{DataKind, PcdMeta, Reader, Schema, ValueKind, ViewPoint, WriterInit};
+use point::PcdPoint;
 use pomona_files::Malformed;
-use record::Record;
 use std::io::Cursor;
 
 const DAMAGED: &str = "write the cloud again; this file is cut short or damaged";
@@ -40,7 +40,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<PointCloud, Malformed> {
     let has_color = meta
         .field_defs
         .iter()
-        .any(|field| record::color_channel(field).is_some());
+        .any(|field| point::color_channel(field).is_some());
 
     let at_point = |index: usize, e: pcd_rs::Error| {
         let place = match meta.data {
@@ -53,7 +53,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<PointCloud, Malformed> {
         };
         Malformed::new(place, e.to_string(), DAMAGED)
     };
-    let reader = Reader::<Record, _>::from_bytes(bytes)
+    let reader = Reader::<PcdPoint, _>::from_bytes(bytes)
         .map_err(|e| Malformed::new("PCD data", e.to_string(), DAMAGED))?;
     let count = meta.num_points as usize;
     let mut cloud = PointCloud {
@@ -181,7 +181,7 @@ pub(super) fn format(cloud: &PointCloud, kind: DataKind) -> Result<Vec<u8>, Malf
         version: None,
     };
     let mut writer = init
-        .build_from_writer::<Record, _>(Cursor::new(&mut bytes))
+        .build_from_writer::<PcdPoint, _>(Cursor::new(&mut bytes))
         .map_err(|e| fault(e.to_string()))?;
     let pushed = (0..cloud.len()).try_for_each(|i| {
         let color = cloud
@@ -189,7 +189,7 @@ pub(super) fn format(cloud: &PointCloud, kind: DataKind) -> Result<Vec<u8>, Malf
             .as_ref()
             .map(|colors| colors[i])
             .unwrap_or_default();
-        writer.push(&Record {
+        writer.push(&PcdPoint {
             position: [cloud.x[i], cloud.y[i], cloud.z[i]],
             color,
         })

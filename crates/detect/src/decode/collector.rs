@@ -17,7 +17,7 @@ impl Collector {
         }
     }
 
-    /// Whether a score counts; one that is no number does not.
+    /// Whether a score is kept; NaN is not.
     pub(super) fn counts(&self, score: f32) -> bool {
         f64::from(score) >= self.threshold && score.is_finite()
     }

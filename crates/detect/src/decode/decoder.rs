@@ -1,6 +1,6 @@
 use super::table::rows_output;
 use crate::{classes, family::Coordinates, family::Family};
-use pomona_network::{ModelFault, Port, Tensor};
+use pomona_network::{Malformed, Port, Tensor};
 
 /// What the reading of a network's outputs depends on.
 #[derive(Clone, Debug)]
@@ -24,20 +24,20 @@ pub(crate) struct Decoder {
 
 impl Decoder {
     /// The output that holds rows of boxes.
-    pub(super) fn rows<'a>(&self, outputs: &'a [Tensor]) -> Result<&'a Tensor, ModelFault> {
+    pub(super) fn rows<'a>(&self, outputs: &'a [Tensor]) -> Result<&'a Tensor, Malformed> {
         let at = rows_output(&self.ports).unwrap_or(0);
         outputs.get(at).ok_or_else(|| {
             let problem = format!("none, and {} is read from one", self.family);
-            ModelFault::new("outputs", problem, "export the model again")
+            Malformed::new("outputs", problem, "export the model again")
         })
     }
 
     /// Refuses a number of classes that their names or the choice contradict.
-    pub(super) fn check_classes(&self, place: &str, count: usize) -> Result<(), ModelFault> {
+    pub(super) fn check_classes(&self, place: &str, count: usize) -> Result<(), Malformed> {
         if let Some(named) = self.classes
             && named != count
         {
-            return Err(ModelFault::new(
+            return Err(Malformed::new(
                 place,
                 format!("{count} classes, of which {named} are named"),
                 "name every class of the model in `classes`, in its order, or state its `family`",

@@ -4,20 +4,20 @@ use super::{
     yolov3, yolov3_nms, yolov5, yolov8,
 };
 use crate::{description::ModelDescription, family::Family};
-use pomona_network::{ModelFault, Port};
+use pomona_network::{Malformed, Port};
 
 /// The family of a network with these inputs and outputs.
 ///
-/// `input` is its width and height in pixels, where they are known. Two inputs and three outputs are the zoo's
-/// `YOLOv3`. An output with three axes is told by its number of rows: as many as there are cells on the grids along its
-/// last axis is `YOLOv8`, along its middle axis YOLOX, three times as many `YOLOv5`. Only outputs of four or five axes are
-/// `YOLOv3`'s grids.
+/// `input` is its width and height in pixels, where they are known. Two inputs and three outputs are the ONNX model
+/// zoo's `YOLOv3`. An output with three axes is recognised by its number of rows: with as many as the grids have cells
+/// along its last axis it is `YOLOv8`, along its middle axis YOLOX, and with three times as many `YOLOv5`. Outputs of
+/// four or five axes alone are `YOLOv3`'s grids.
 pub(crate) fn recognise(
     inputs: &[Port],
     outputs: &[Port],
     input: Option<[usize; 2]>,
     description: &ModelDescription,
-) -> Result<Family, ModelFault> {
+) -> Result<Family, Malformed> {
     if let Some(family) = description.family {
         return Ok(family);
     }
@@ -32,7 +32,7 @@ pub(crate) fn recognise(
         return Ok(Family::YoloV3);
     }
     let shown: Vec<String> = outputs.iter().map(show).collect();
-    Err(ModelFault::new(
+    Err(Malformed::new(
         "outputs",
         format!("{} are those of no known family", shown.join(", ")),
         "export the model without suppression inside, or state its `family` in the description beside it",
@@ -43,13 +43,13 @@ fn rows_family(
     output: &Port,
     input: Option<[usize; 2]>,
     description: &ModelDescription,
-) -> Result<Family, ModelFault> {
+) -> Result<Family, Malformed> {
     let unknown = |problem: &str| {
         let size = input.map_or_else(String::new, |[w, h]| format!(" of a {w}x{h} input"));
         let problem = format!("{}{size}: {problem}", show(output));
         let remedy = "state `family`, and `input_size` or `strides` where they are unusual, in the \
             description beside the model";
-        Err(ModelFault::new("outputs", problem, remedy))
+        Err(Malformed::new("outputs", problem, remedy))
     };
     let grids = description.strides.as_deref();
     let on_grid = |rows: usize, times: usize| {

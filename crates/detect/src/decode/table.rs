@@ -1,4 +1,4 @@
-use pomona_network::{ModelFault, Port, Tensor};
+use pomona_network::{Malformed, Port, Tensor};
 
 /// An output seen as rows of numbers, whichever axis comes first in memory.
 #[derive(Clone, Copy)]
@@ -12,7 +12,7 @@ pub(super) struct Table<'a> {
 
 impl<'a> Table<'a> {
     /// Of an output `[1, rows, columns]`, or one without its first axis.
-    pub(super) fn new(tensor: &'a Tensor) -> Result<Self, ModelFault> {
+    pub(super) fn new(tensor: &'a Tensor) -> Result<Self, Malformed> {
         check_length(tensor)?;
         match tensor.shape[..] {
             [1, rows, columns] | [rows, columns] => Ok(Self {
@@ -22,7 +22,7 @@ impl<'a> Table<'a> {
                 row_step: columns,
                 column_step: 1,
             }),
-            _ => Err(ModelFault::new(
+            _ => Err(Malformed::new(
                 place(tensor),
                 format!(
                     "its shape is {:?}, not one image's rows of numbers",
@@ -66,7 +66,7 @@ pub(super) fn place(tensor: &Tensor) -> String {
 }
 
 /// Refuses a tensor that does not hold as many numbers as its shape says.
-pub(super) fn check_length(tensor: &Tensor) -> Result<(), ModelFault> {
+pub(super) fn check_length(tensor: &Tensor) -> Result<(), Malformed> {
     let length = tensor
         .shape
         .iter()
@@ -74,7 +74,7 @@ pub(super) fn check_length(tensor: &Tensor) -> Result<(), ModelFault> {
     if length == Some(tensor.data.len()) {
         return Ok(());
     }
-    Err(ModelFault::new(
+    Err(Malformed::new(
         place(tensor),
         format!("{} numbers for shape {:?}", tensor.data.len(), tensor.shape),
         "choose the other runtime",

@@ -4,7 +4,7 @@ use super::{
     table::{self, check_length},
 };
 use crate::detection::Detection;
-use pomona_network::{ModelFault, Tensor};
+use pomona_network::{Malformed, Tensor};
 
 /// Place of the objectness among an anchor's numbers.
 const OBJECTNESS: usize = 4;
@@ -104,14 +104,14 @@ impl Head {
 pub(super) fn anchors(
     heads: usize,
     described: Option<&[[f32; 2]]>,
-) -> Result<&[[f32; 2]], ModelFault> {
+) -> Result<&[[f32; 2]], Malformed> {
     let anchors = match (described, heads) {
         (Some(anchors), _) => anchors,
         (None, 3) => &ANCHORS[..],
         (None, 2) => &TINY_ANCHORS[..],
         (None, _) => {
             let problem = format!("{heads} grids, for which there are no usual anchors");
-            return Err(ModelFault::new(
+            return Err(Malformed::new(
                 "outputs",
                 problem,
                 "list the model's `anchors`",
@@ -119,7 +119,7 @@ pub(super) fn anchors(
         }
     };
     if heads == 0 || anchors.is_empty() || anchors.len() % heads != 0 {
-        return Err(ModelFault::new(
+        return Err(Malformed::new(
             "`anchors`",
             format!("{} of them for {heads} grids", anchors.len()),
             "list the anchors of every grid, as many for each, those of the finest grid first",
@@ -128,7 +128,7 @@ pub(super) fn anchors(
     Ok(anchors)
 }
 
-pub(super) fn decode(decoder: &Decoder, outputs: &[Tensor]) -> Result<Vec<Detection>, ModelFault> {
+pub(super) fn decode(decoder: &Decoder, outputs: &[Tensor]) -> Result<Vec<Detection>, Malformed> {
     let anchors = anchors(outputs.len(), decoder.anchors.as_deref())?;
     let per_cell = anchors.len() / outputs.len();
     let mut heads = Vec::with_capacity(outputs.len());
@@ -137,7 +137,7 @@ pub(super) fn decode(decoder: &Decoder, outputs: &[Tensor]) -> Result<Vec<Detect
         let strides = decoder.strides.as_deref();
         let head = Head::new(&tensor.shape, per_cell, decoder.input, strides).ok_or_else(|| {
             let [width, height] = decoder.input;
-            ModelFault::new(
+            Malformed::new(
                 table::place(tensor),
                 format!(
                     "its shape {:?} is no grid of a {width}x{height} input with {per_cell} anchors to a cell",
@@ -155,7 +155,7 @@ pub(super) fn decode(decoder: &Decoder, outputs: &[Tensor]) -> Result<Vec<Detect
         .find(|pair| pair[0].0.stride == pair[1].0.stride)
     {
         let problem = format!("the same grid as output `{}`", pair[0].1.name);
-        return Err(ModelFault::new(
+        return Err(Malformed::new(
             table::place(pair[1].1),
             problem,
             "state the model's `family`",

@@ -4,7 +4,7 @@ use super::{
     table::{self, check_length},
 };
 use crate::detection::Detection;
-use pomona_network::{Element, ModelFault, Port, Tensor};
+use pomona_network::{Element, Malformed, Port, Tensor};
 
 /// Which outputs are the boxes, the scores and the chosen rows: the integers are the chosen ones, and of the others
 /// the first whose last axis is 4 long holds the boxes; else they come in this order.
@@ -27,10 +27,10 @@ pub(super) fn roles(ports: &[Port]) -> Option<[usize; 3]> {
 
 /// The network is told that the image has the size of its input, so that its boxes are in pixels of the input, and one
 /// exact mapping leads from there to the image.
-pub(super) fn decode(decoder: &Decoder, outputs: &[Tensor]) -> Result<Vec<Detection>, ModelFault> {
+pub(super) fn decode(decoder: &Decoder, outputs: &[Tensor]) -> Result<Vec<Detection>, Malformed> {
     let roles = roles(&decoder.ports).ok_or_else(|| {
         let problem = format!("{} of them, where yolov3-nms has 3", decoder.ports.len());
-        ModelFault::new("outputs", problem, "state the model's `family`")
+        Malformed::new("outputs", problem, "state the model's `family`")
     })?;
     let [boxes, scores, chosen] = roles.map(|k| &outputs[k]);
     for tensor in [boxes, scores, chosen] {
@@ -38,7 +38,7 @@ pub(super) fn decode(decoder: &Decoder, outputs: &[Tensor]) -> Result<Vec<Detect
     }
     let shape_fault = |tensor: &Tensor, wanted: &str| {
         let problem = format!("its shape is {:?}, not {wanted}", tensor.shape);
-        ModelFault::new(table::place(tensor), problem, "state the model's `family`")
+        Malformed::new(table::place(tensor), problem, "state the model's `family`")
     };
     let [1, rows, 4] = boxes.shape[..] else {
         return Err(shape_fault(boxes, "[1, N, 4]"));

@@ -5,7 +5,7 @@ use super::{
     table::{self, Table},
 };
 use crate::{detection::Detection, family::Coordinates};
-use pomona_network::{ModelFault, Tensor};
+use pomona_network::{Malformed, Tensor};
 
 /// Column of the objectness: how sure the network is that there is anything.
 pub(super) const OBJECTNESS: usize = 4;
@@ -17,7 +17,7 @@ pub(super) const BEFORE_CLASSES: usize = 5;
 /// centre, so that a network that counts in pixels always has some far beyond 2, and one that gives shares none.
 const LARGEST_SHARE: f32 = 2.0;
 
-pub(super) fn decode(decoder: &Decoder, outputs: &[Tensor]) -> Result<Vec<Detection>, ModelFault> {
+pub(super) fn decode(decoder: &Decoder, outputs: &[Tensor]) -> Result<Vec<Detection>, Malformed> {
     let tensor = decoder.rows(outputs)?;
     let table = Table::new(tensor)?;
     let place = table::place(tensor);
@@ -26,17 +26,13 @@ pub(super) fn decode(decoder: &Decoder, outputs: &[Tensor]) -> Result<Vec<Detect
             "{} columns; {} has 5 and the classes",
             table.columns, decoder.family
         );
-        return Err(ModelFault::new(
-            place,
-            problem,
-            "state the model's `family`",
-        ));
+        return Err(Malformed::new(place, problem, "state the model's `family`"));
     }
     // Without a column for a class, the objectness is the score.
     let classes = table.columns - BEFORE_CLASSES;
     decoder.check_classes(&place, classes.max(1))?;
     if !decoder.stated && table.rows == cells(decoder.input, USUAL_STRIDES) {
-        return Err(ModelFault::new(
+        return Err(Malformed::new(
             place,
             format!(
                 "its shape {:?} is that of yolox, where it was left open before",

@@ -6,12 +6,12 @@ use super::{
     yolov5,
 };
 use crate::detection::Detection;
-use pomona_network::{ModelFault, Tensor};
+use pomona_network::{Malformed, Tensor};
 
 /// Columns before the classes: the box.
 pub(super) const BEFORE_CLASSES: usize = 4;
 
-pub(super) fn decode(decoder: &Decoder, outputs: &[Tensor]) -> Result<Vec<Detection>, ModelFault> {
+pub(super) fn decode(decoder: &Decoder, outputs: &[Tensor]) -> Result<Vec<Detection>, Malformed> {
     let tensor = decoder.rows(outputs)?;
     let mut table = Table::new(tensor)?;
     let place = table::place(tensor);
@@ -27,11 +27,7 @@ pub(super) fn decode(decoder: &Decoder, outputs: &[Tensor]) -> Result<Vec<Detect
             "{} numbers to a box; yolov8 has 4 and the classes",
             table.columns
         );
-        return Err(ModelFault::new(
-            place,
-            problem,
-            "state the model's `family`",
-        ));
+        return Err(Malformed::new(place, problem, "state the model's `family`"));
     }
     decoder.check_classes(&place, table.columns - BEFORE_CLASSES)?;
     let [width, height] = yolov5::scale(decoder, &table);

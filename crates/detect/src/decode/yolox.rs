@@ -6,26 +6,22 @@ use super::{
     yolov5::{BEFORE_CLASSES, OBJECTNESS},
 };
 use crate::detection::Detection;
-use pomona_network::{ModelFault, Tensor};
+use pomona_network::{Malformed, Tensor};
 
-pub(super) fn decode(decoder: &Decoder, outputs: &[Tensor]) -> Result<Vec<Detection>, ModelFault> {
+pub(super) fn decode(decoder: &Decoder, outputs: &[Tensor]) -> Result<Vec<Detection>, Malformed> {
     let tensor = decoder.rows(outputs)?;
     let table = Table::new(tensor)?;
     let place = table::place(tensor);
     if table.columns <= BEFORE_CLASSES {
         let problem = format!("{} columns; yolox has 5 and the classes", table.columns);
-        return Err(ModelFault::new(
-            place,
-            problem,
-            "state the model's `family`",
-        ));
+        return Err(Malformed::new(place, problem, "state the model's `family`"));
     }
     decoder.check_classes(&place, table.columns - BEFORE_CLASSES)?;
     let strides = decoder.strides.as_deref().unwrap_or(USUAL_STRIDES);
     let [width, height] = decoder.input;
     let expected = cells(decoder.input, strides);
     if table.rows != expected {
-        return Err(ModelFault::new(
+        return Err(Malformed::new(
             place,
             format!(
                 "{} rows, where the grids of strides {strides:?} on {width}x{height} pixels have {expected} cells",

@@ -3,6 +3,7 @@
 use pomona_cloud::{Frame, PixelBox};
 use pomona_detect::Detection;
 use pomona_scenes::AppleTruth;
+use pomona_statistics::upper_median;
 use rand_chacha::ChaCha8Rng;
 use rand_core::{Rng, SeedableRng};
 
@@ -199,7 +200,6 @@ fn depth_in(frame: &Frame, b: &Detection) -> Option<f64> {
             depths.extend(frame.depth.get(u, v));
         }
     }
-    depths.sort_unstable();
-    let middle = depths.get(depths.len() / 2)?;
-    Some(f64::from(*middle) * frame.camera.depth_scale)
+    let middle = upper_median(&mut depths)?;
+    Some(f64::from(middle) * frame.camera.depth_scale)
 }

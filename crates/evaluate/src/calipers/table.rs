@@ -48,7 +48,7 @@ pub fn read_calipers(path: impl AsRef<Path>) -> Result<Vec<Caliper>, EvaluateErr
         }
         if calipers.iter().any(|c| c.box_name == box_name) {
             return Err(malformed(
-                format!("box `{box_name}` stands twice"),
+                format!("box `{box_name}` is given twice"),
                 "give each apple one line",
             ));
         }

@@ -8,6 +8,7 @@ use pomona_ransac::{
     FixedCount, LeastSquares, Marginal, MarginalScore, Msac, Ransac, RansacError, Report,
     Reweighted,
 };
+use pomona_statistics::nearest_quantile;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -151,6 +152,5 @@ pub(crate) fn measure(configuration: Configuration, clouds: u64) -> Figures {
 }
 
 fn quantiles(mut values: Vec<f64>) -> [f64; 2] {
-    values.sort_by(f64::total_cmp);
-    [0.5, 0.95].map(|q| values[((values.len() - 1) as f64 * q).round() as usize])
+    [0.5, 0.95].map(|q| nearest_quantile(&mut values, q).unwrap_or(f64::NAN))
 }

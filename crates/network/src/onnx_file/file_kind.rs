@@ -1,4 +1,4 @@
-use crate::fault::ModelFault;
+use pomona_files::Malformed;
 
 const EXPORT: &str = "export the model to ONNX and give that file";
 const GIVE_MODEL: &str = "give the model's .onnx file";
@@ -26,11 +26,11 @@ const PREFIXES: [(&[u8], &str, &str); 6] = [
 
 const SAVED_PAGE: &str = "a web page, perhaps saved in place of a download";
 
-/// How much of a file is looked at, bytes.
+/// How much of a file is examined, bytes.
 const HEAD: usize = 512;
 
 /// The fault of a file that is of another kind, by its first bytes; `None` for one that may be an ONNX model.
-pub(super) fn foreign_kind(bytes: &[u8]) -> Option<ModelFault> {
+pub(super) fn foreign_kind(bytes: &[u8]) -> Option<Malformed> {
     let head = bytes[..bytes.len().min(HEAD)].trim_ascii_start();
     let begins = |prefix: &[u8]| {
         let start = head.get(..prefix.len());
@@ -49,7 +49,7 @@ pub(super) fn foreign_kind(bytes: &[u8]) -> Option<ModelFault> {
         return None;
     };
     let problem = format!("is not an ONNX model but {what}");
-    Some(ModelFault::new("first bytes", problem, remedy))
+    Some(Malformed::new("first bytes", problem, remedy))
 }
 
 /// A zip archive; checkpoints of `PyTorch` are such.

@@ -1,13 +1,12 @@
+use super::fields;
 use super::protobuf::{Damage, Field, Fields};
-use crate::{
-    fault::ModelFault,
-    tensor::{Element, Port, element_count},
-};
+use crate::tensor::{Element, Port, element_count};
+use pomona_files::Malformed;
 use std::collections::{BTreeSet, HashSet};
 
 /// What an ONNX file says about itself: its ports, and where else its weights are.
 ///
-/// Numbers of the fields: `onnx.proto3`, ONNX 1.17. Weights and nodes are left to the runtimes.
+/// Weights and nodes are left to the inference backends.
 #[derive(Debug, Default, PartialEq)]
 pub(super) struct Summary {
     pub(super) inputs: Vec<Port>,
@@ -20,11 +19,14 @@ pub(super) struct Summary {
     pub(super) external: BTreeSet<String>,
 }
 
+/// Versions of ONNX's intermediate representation that are taken for one: there have been 12 so far.
+const IR_VERSIONS: std::ops::Range<i64> = 1..1000;
+
 const AGAIN: &str = "export or download it again";
 
 impl Summary {
     /// Reads a file's content.
-    pub(super) fn parse(bytes: &[u8]) -> Result<Self, ModelFault> {
+    pub(super) fn parse(bytes: &[u8]) -> Result<Self, Malformed> {
         let mut reading = Reading::default();
         let read = Fields::new(bytes).try_for_each(|field| reading.model_field(&field?));
         match read {
@@ -40,7 +42,7 @@ struct Reading {
     summary: Summary,
     /// Names of the weights: old files list them as inputs too.
     weights: HashSet<String>,
-    fault: Option<ModelFault>,
+    fault: Option<Malformed>,
     has_version: bool,
     has_graph: bool,
 }
@@ -48,15 +50,17 @@ struct Reading {
 impl Reading {
     fn model_field(&mut self, field: &Field) -> Result<(), Damage> {
         match field.number {
-            1 => self.has_version = (1..1000).contains(&field.number_value()?),
-            7 => {
+            fields::MODEL_IR_VERSION => {
+                self.has_version = IR_VERSIONS.contains(&field.number_value()?);
+            }
+            fields::MODEL_GRAPH => {
                 self.has_graph = true;
                 for field in field.message()? {
                     self.graph_field(&field?)?;
                 }
             }
-            8 => self.opset(field)?,
-            14 => self.summary.metadata.push(entry(field)?),
+            fields::MODEL_OPSET_IMPORT => self.opset(field)?,
+            fields::MODEL_METADATA_PROPS => self.summary.metadata.push(entry(field)?),
             _ => (),
         }
         Ok(())
@@ -67,8 +71,8 @@ impl Reading {
         for field in field.message()? {
             let field = field?;
             match field.number {
-                1 => domain = field.text()?,
-                2 => version = Some(field.number_value()?),
+                fields::OPSET_DOMAIN => domain = field.text()?,
+                fields::OPSET_VERSION => version = Some(field.number_value()?),
                 _ => (),
             }
         }
@@ -80,9 +84,9 @@ impl Reading {
 
     fn graph_field(&mut self, field: &Field) -> Result<(), Damage> {
         match field.number {
-            5 => self.weights(field)?,
-            11 => self.summary.inputs.push(port(field)?),
-            12 => self.summary.outputs.push(port(field)?),
+            fields::GRAPH_INITIALIZER => self.weights(field)?,
+            fields::GRAPH_INPUT => self.summary.inputs.push(port(field)?),
+            fields::GRAPH_OUTPUT => self.summary.outputs.push(port(field)?),
             _ => (),
         }
         Ok(())
@@ -94,11 +98,11 @@ impl Reading {
         for field in field.message()? {
             let field = field?;
             match field.number {
-                1 => shape.extend(field.numbers()?),
-                2 => element = field.number_value()?,
-                8 => name = field.text()?,
-                9 => bytes = Some(field.bytes()?.len()),
-                13 => elsewhere.push(entry(&field)?),
+                fields::TENSOR_DIMS => shape.extend(field.numbers()?),
+                fields::TENSOR_DATA_TYPE => element = field.number_value()?,
+                fields::TENSOR_NAME => name = field.text()?,
+                fields::TENSOR_RAW_DATA => bytes = Some(field.bytes()?.len()),
+                fields::TENSOR_EXTERNAL_DATA => elsewhere.push(entry(&field)?),
                 _ => (),
             }
         }
@@ -116,7 +120,7 @@ impl Reading {
             let count = axes.and_then(|axes| element_count(&axes));
             let wanted = count.and_then(|count| count.checked_mul(size));
             if wanted != Some(bytes) && self.fault.is_none() {
-                self.fault = Some(ModelFault::new(
+                self.fault = Some(Malformed::new(
                     format!("weights `{name}`"),
                     format!("are {shape:?} of {size} bytes each, but {bytes} bytes are there"),
                     AGAIN,
@@ -127,15 +131,15 @@ impl Reading {
         Ok(())
     }
 
-    fn fault_of(&self, damage: Damage, length: usize) -> ModelFault {
+    fn fault_of(&self, damage: Damage, length: usize) -> Malformed {
         let place = |at: usize| format!("byte {at} of {length}");
         match damage {
-            Damage::Short(at) if self.has_version => ModelFault::new(
+            Damage::Short(at) if self.has_version => Malformed::new(
                 place(at),
                 "the file ends in the middle: it is truncated",
                 AGAIN,
             ),
-            Damage::Foreign(at) if self.has_graph => ModelFault::new(
+            Damage::Foreign(at) if self.has_graph => Malformed::new(
                 place(at),
                 "what stands there is no part of a model: the file is damaged",
                 AGAIN,
@@ -144,11 +148,11 @@ impl Reading {
         }
     }
 
-    fn finish(mut self) -> Result<Summary, ModelFault> {
+    fn finish(mut self) -> Result<Summary, Malformed> {
         if !self.has_graph {
             return Err(if self.has_version {
                 let problem = "no network in it: it is truncated or was never finished";
-                ModelFault::new("end of the file", problem, AGAIN)
+                Malformed::new("end of the file", problem, AGAIN)
             } else {
                 foreign("whole file".to_owned())
             });
@@ -164,8 +168,8 @@ impl Reading {
     }
 }
 
-fn foreign(place: String) -> ModelFault {
-    ModelFault::new(
+fn foreign(place: String) -> Malformed {
+    Malformed::new(
         place,
         "is not an ONNX model",
         "give a model exported as ONNX",
@@ -178,8 +182,8 @@ fn entry(field: &Field) -> Result<(String, String), Damage> {
     for field in field.message()? {
         let field = field?;
         match field.number {
-            1 => key = field.text()?,
-            2 => value = field.text()?,
+            fields::ENTRY_KEY => key = field.text()?,
+            fields::ENTRY_VALUE => value = field.text()?,
             _ => (),
         }
     }
@@ -195,8 +199,8 @@ fn port(field: &Field) -> Result<Port, Damage> {
     for field in field.message()? {
         let field = field?;
         match field.number {
-            1 => port.name = field.text()?,
-            2 => port_type(&field, &mut port)?,
+            fields::VALUE_NAME => port.name = field.text()?,
+            fields::VALUE_TYPE => port_type(&field, &mut port)?,
             _ => (),
         }
     }
@@ -207,12 +211,12 @@ fn port_type(field: &Field, port: &mut Port) -> Result<(), Damage> {
     for field in field.message()? {
         let field = field?;
         // Sequences and maps have other numbers: they stay `Other`.
-        if field.number == 1 {
+        if field.number == fields::TYPE_TENSOR {
             for field in field.message()? {
                 let field = field?;
                 match field.number {
-                    1 => port.element = element(field.number_value()?),
-                    2 => port.shape = shape(&field)?,
+                    fields::TENSOR_TYPE_ELEMENT => port.element = element(field.number_value()?),
+                    fields::TENSOR_TYPE_SHAPE => port.shape = shape(&field)?,
                     _ => (),
                 }
             }
@@ -224,12 +228,12 @@ fn port_type(field: &Field, port: &mut Port) -> Result<(), Damage> {
 fn shape(field: &Field) -> Result<Vec<Option<usize>>, Damage> {
     let axes = field
         .message()?
-        .filter(|field| !matches!(field, Ok(field) if field.number != 1));
+        .filter(|field| !matches!(field, Ok(field) if field.number != fields::SHAPE_DIMENSION));
     let axis = |field: Result<Field, Damage>| {
         let mut length = None;
         for field in field?.message()? {
             let field = field?;
-            if field.number == 1 {
+            if field.number == fields::DIMENSION_LENGTH {
                 // Some exporters write 0 or -1 for an axis that they leave open.
                 length = usize::try_from(field.number_value()?)
                     .ok()
@@ -241,6 +245,7 @@ fn shape(field: &Field) -> Result<Vec<Option<usize>>, Damage> {
     axes.map(axis).collect()
 }
 
+/// By the number of a `TensorProto.DataType`.
 fn element(number: i64) -> Element {
     match number {
         1 => Element::F32,
@@ -252,7 +257,7 @@ fn element(number: i64) -> Element {
     }
 }
 
-/// Bytes of one number; `None` for text and for what is packed.
+/// Bytes of one number of a `TensorProto.DataType`; `None` for text and for what is packed.
 fn size_of(element: i64) -> Option<usize> {
     match element {
         2 | 3 | 9 => Some(1),

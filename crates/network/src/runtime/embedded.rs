@@ -177,7 +177,12 @@ fn read(model: &str, port: &Port, value: Value) -> Result<Tensor, NetworkError> 
                 numbers.iter().map(|&number| f32::from(number)).collect(),
             )
         }
-        _ => return Err(unconvertible("output", port, "a sequence").at(model)),
+        _ => {
+            return Err(NetworkError::model(
+                model,
+                unconvertible("output", port, "a sequence"),
+            ));
+        }
     };
     Ok(Tensor {
         name: port.name.clone(),

@@ -1,9 +1,9 @@
 use crate::{
     error::NetworkError,
-    fault::ModelFault,
     onnx_file::LARGEST_INPUT,
     tensor::{Port, Tensor, element_count},
 };
+use pomona_files::Malformed;
 
 /// The given tensors in the order of `ports`, or the error that names the one which does not fit.
 pub(super) fn in_port_order<'a>(
@@ -12,7 +12,10 @@ pub(super) fn in_port_order<'a>(
     given: &'a [Tensor],
 ) -> Result<Vec<&'a Tensor>, NetworkError> {
     let refuse = |place: String, problem: String| {
-        ModelFault::new(place, problem, "feed what the model's inputs declare").at(model)
+        NetworkError::model(
+            model,
+            Malformed::new(place, problem, "feed what the model's inputs declare"),
+        )
     };
     if let Some(stray) = given
         .iter()

@@ -4,6 +4,7 @@ use super::places::{Surroundings, version_in_name};
 use super::truncation::is_truncated;
 use crate::error::NetworkError;
 use ort::environment::Environment;
+use std::error::Error;
 use std::fmt::Write;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
@@ -172,7 +173,7 @@ fn refused_by_binding(path: &Path, error: ort::LoadDynamicError) -> NetworkError
     match error {
         Failure::Dlopen { error, .. } => refused(
             path,
-            &format!("the system's loader refuses it: {error}"),
+            &format!("the system's loader refuses it: {}", innermost(&error)),
             "give ONNX Runtime's own library for this system: `pip install onnxruntime` installs one",
         ),
         Failure::MissingApi { .. } => refused(
@@ -194,6 +195,14 @@ fn refused_by_binding(path: &Path, error: ort::LoadDynamicError) -> NetworkError
             "install a newer one: `pip install --upgrade onnxruntime` will do",
         ),
     }
+}
+
+/// The message of an error's first cause: that of the system's loader, below the binding's own.
+fn innermost(mut error: &dyn Error) -> String {
+    while let Some(cause) = error.source() {
+        error = cause;
+    }
+    error.to_string()
 }
 
 /// The version of a library that the binding found new enough: from its name, else from the version under

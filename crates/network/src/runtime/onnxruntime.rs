@@ -132,7 +132,10 @@ impl<'a> Converted<'a> {
             Element::I32 => Self::I32(data.iter().map(|&value| value.round() as i32).collect()),
             Element::I64 => Self::I64(data.iter().map(|&value| value.round() as i64).collect()),
             Element::Other => {
-                return Err(unconvertible("input", port, "another kind of number").at(model));
+                return Err(NetworkError::model(
+                    model,
+                    unconvertible("input", port, "another kind of number"),
+                ));
             }
         })
     }
@@ -151,7 +154,12 @@ impl<'a> Converted<'a> {
 fn read(model: &str, port: &Port, value: &DynValue) -> Result<Tensor, NetworkError> {
     let element = match value.dtype() {
         ValueType::Tensor { ty, .. } => *ty,
-        other => return Err(unconvertible("output", port, &other.to_string()).at(model)),
+        other => {
+            return Err(NetworkError::model(
+                model,
+                unconvertible("output", port, &other.to_string()),
+            ));
+        }
     };
     let extracted = match element {
         TensorElementType::Float32 => numbers(value, |&number: &f32| number),
@@ -162,10 +170,16 @@ fn read(model: &str, port: &Port, value: &DynValue) -> Result<Tensor, NetworkErr
         TensorElementType::Int8 => numbers(value, |&number: &i8| f32::from(number)),
         TensorElementType::Uint8 => numbers(value, |&number: &u8| f32::from(number)),
         TensorElementType::Bool => numbers(value, |&number: &bool| f32::from(u8::from(number))),
-        other => return Err(unconvertible("output", port, &other.to_string()).at(model)),
+        other => {
+            return Err(NetworkError::model(
+                model,
+                unconvertible("output", port, &other.to_string()),
+            ));
+        }
     };
-    let (shape, data) =
-        extracted.map_err(|error| unconvertible("output", port, &error.to_string()).at(model))?;
+    let (shape, data) = extracted.map_err(|error| {
+        NetworkError::model(model, unconvertible("output", port, &error.to_string()))
+    })?;
     Ok(Tensor {
         name: port.name.clone(),
         shape,

@@ -46,7 +46,8 @@ impl Surroundings<'_> {
         }
         folders.extend(LOADER_PATHS.iter().flat_map(|name| self.paths(name)));
         folders.extend(SYSTEM.iter().map(|folder| self.root.join(folder)));
-        let packages = self.python_prefixes().into_iter().flat_map(site_packages);
+        let prefixes = self.python_prefixes();
+        let packages = prefixes.iter().flat_map(|prefix| site_packages(prefix));
         folders.extend(packages.map(|folder| folder.join("onnxruntime/capi")));
 
         let mut libraries = Vec::new();
@@ -95,7 +96,7 @@ impl Surroundings<'_> {
 }
 
 /// Folders of packages of a Python that is installed here.
-fn site_packages(prefix: PathBuf) -> Vec<PathBuf> {
+fn site_packages(prefix: &Path) -> Vec<PathBuf> {
     let versions = entries(&prefix.join("lib"), "python3").into_iter();
     let packages = versions.flat_map(|v| [v.join("site-packages"), v.join("dist-packages")]);
     packages.chain([prefix.join("Lib/site-packages")]).collect()

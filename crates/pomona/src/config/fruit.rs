@@ -28,11 +28,12 @@ const CHECK_SMALLER: f64 = 0.9;
 /// And how far above it: the spheres of partly hidden fruit come out large.
 const CHECK_LARGER: f64 = 1.2;
 
-/// Where in the window the prior of a radius has its mean, as a share of the window's width: 38 mm for 20 to 50 mm, the
-/// mean of the apples in the paper's orchard, which are three quarters of the largest that are sold.
+/// Where in the window the prior of a radius has its mean, as a share of the window's width. The window is wider below,
+/// where small fruit and noise are; 38 mm for 20 to 50 mm, about the radius of a dessert apple.
 const PRIOR_MEAN: f64 = 0.6;
 
-/// Standard deviation of that prior as a share of the window's width: 6 mm for 20 to 50 mm.
+/// Standard deviation of that prior as a share of the window's width, so that the ends of the window lie two and three of
+/// them from the mean; 6 mm for 20 to 50 mm.
 const PRIOR_SD: f64 = 0.2;
 
 /// Radii between two ends, metres.

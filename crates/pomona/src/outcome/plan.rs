@@ -1,5 +1,5 @@
 use nalgebra::Isometry3;
-use pomona_approach::{Approach, Clearance, Reason, Refusal, Sample};
+use pomona_approach::{Approach, Clearance, PathPoint, Reason, Refusal};
 
 /// How a robot gets to one apple, or why it does not; in the robot's frame.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,7 +28,7 @@ pub struct PlannedApproach {
     /// Opening of the gripper, metres.
     pub jaw_width_m: f64,
     /// The tool at equal steps of time.
-    pub samples: Vec<Sample>,
+    pub samples: Vec<PathPoint>,
 }
 
 impl ApplePlan {

@@ -40,7 +40,7 @@ pub struct BranchRecord {
     /// A point on the line.
     pub point: [f64; 3],
     /// Its unit direction; the opposite one is the same line.
-    #[cfg_attr(test, schemars(with = "super::schema::UnitVector"))]
+    #[cfg_attr(test, schemars(with = "pomona_schema::UnitVector"))]
     pub direction: [f64; 3],
     /// Number of the points that lie on it.
     pub inliers: usize,
@@ -57,7 +57,7 @@ pub struct CandidateRecord {
     /// Point of its axis nearest to the apple's centre.
     pub foot: [f64; 3],
     /// Unit tangent of its axis there.
-    #[cfg_attr(test, schemars(with = "super::schema::UnitVector"))]
+    #[cfg_attr(test, schemars(with = "pomona_schema::UnitVector"))]
     pub tangent: [f64; 3],
     /// Radius of the branch.
     #[cfg_attr(test, schemars(extend("exclusiveMinimum" = 0)))]

@@ -44,7 +44,7 @@ pub struct PickRecord {
     pub foot: Option<[f64; 3]>,
     /// Unit vector from the centre to the foot: the direction of approach.
     #[serde(skip_serializing_if = "Option::is_none")]
-    #[cfg_attr(test, schemars(with = "super::schema::UnitVector"))]
+    #[cfg_attr(test, schemars(with = "pomona_schema::UnitVector"))]
     pub direction: Option<[f64; 3]>,
     /// Standard deviation of the direction as an angle, radians; method `robust`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -59,7 +59,7 @@ pub struct PickRecord {
     pub candidates: Vec<CandidateRecord>,
     /// For a refusal: unit vector from the apple's centre towards where a camera would see it past what hides it now.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[cfg_attr(test, schemars(with = "super::schema::UnitVector"))]
+    #[cfg_attr(test, schemars(with = "pomona_schema::UnitVector"))]
     pub view_from: Option<[f64; 3]>,
     /// For a refusal, where the settings ask for it: a fallback direction, not derived from a branch.
     #[serde(default, skip_serializing_if = "Option::is_none")]

@@ -1,6 +1,6 @@
 use crate::outcome::{ApplePlan, NearestObstacle, PlannedApproach, PlannedTurn};
 use nalgebra::{Isometry3, Vector3};
-use pomona_approach::{Obstacle, Path, Refusal, Sample};
+use pomona_approach::{Obstacle, Path, PathPoint, Refusal};
 use pomona_transforms::canonical_xyzw;
 use serde::{Deserialize, Serialize};
 
@@ -31,7 +31,7 @@ pub struct PoseRecord {
     /// Place of the origin.
     pub position: [f64; 3],
     /// Orientation of the axes, x y z w with w ≥ 0.
-    #[cfg_attr(test, schemars(with = "super::schema::UnitQuaternion"))]
+    #[cfg_attr(test, schemars(with = "pomona_schema::UnitQuaternion"))]
     pub quaternion_xyzw: [f64; 4],
 }
 
@@ -99,7 +99,7 @@ pub struct ApproachRecord {
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct WayRecord {
     /// Direction of approach, a unit vector: the pick's, tilted.
-    #[cfg_attr(test, schemars(with = "super::schema::UnitVector"))]
+    #[cfg_attr(test, schemars(with = "pomona_schema::UnitVector"))]
     pub direction: [f64; 3],
     /// Which candidate direction it comes from.
     pub candidate: usize,
@@ -148,7 +148,7 @@ pub struct PathRecord {
 #[cfg_attr(test, schemars(deny_unknown_fields))]
 pub struct PieceRecord {
     /// `transit`, `approach` or `retreat`.
-    #[cfg_attr(test, schemars(with = "super::schema::StageName"))]
+    #[cfg_attr(test, schemars(extend("enum" = ["transit", "approach", "retreat"])))]
     pub stage: String,
     /// When it begins.
     #[cfg_attr(test, schemars(range(min = 0.0)))]
@@ -175,7 +175,7 @@ pub struct SampleRecord {
     /// Per second squared.
     pub acceleration: [f64; 3],
     /// Orientation, x y z w; of the two signs the one nearer to the sample before.
-    #[cfg_attr(test, schemars(with = "super::schema::UnitQuaternion"))]
+    #[cfg_attr(test, schemars(with = "pomona_schema::UnitQuaternion"))]
     pub quaternion_xyzw: [f64; 4],
     /// Radians per second, in the robot's frame.
     pub angular_velocity: [f64; 3],
@@ -202,7 +202,7 @@ pub struct ClearanceRecord {
     #[cfg_attr(test, schemars(range(min = 0.0)))]
     pub time_s: f64,
     /// `transit`, `approach` or `retreat`.
-    #[cfg_attr(test, schemars(with = "super::schema::StageName"))]
+    #[cfg_attr(test, schemars(extend("enum" = ["transit", "approach", "retreat"])))]
     pub stage: String,
 }
 
@@ -281,7 +281,7 @@ impl From<&PlannedApproach> for ApproachRecord {
 }
 
 impl PathRecord {
-    fn new(path: &Path, samples: &[Sample]) -> Self {
+    fn new(path: &Path, samples: &[PathPoint]) -> Self {
         let pieces = path.pieces().iter().map(|piece| PieceRecord {
             stage: piece.stage.name().to_owned(),
             start_s: piece.start_s,
@@ -299,7 +299,7 @@ impl PathRecord {
 }
 
 /// The samples, each with that of its two quaternions which is nearer to the one before.
-fn sample_records(samples: &[Sample]) -> Vec<SampleRecord> {
+fn sample_records(samples: &[PathPoint]) -> Vec<SampleRecord> {
     let mut before: Option<[f64; 4]> = None;
     let records = samples.iter().map(|sample| {
         let q: [f64; 4] = sample.rotation.coords.into();

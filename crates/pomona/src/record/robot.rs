@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 #[cfg_attr(test, schemars(deny_unknown_fields))]
 pub struct FallbackRecord {
     /// Direction of approach, a unit vector.
-    #[cfg_attr(test, schemars(with = "super::schema::UnitVector"))]
+    #[cfg_attr(test, schemars(with = "pomona_schema::UnitVector"))]
     pub direction: [f64; 3],
     /// Where it comes from.
     pub direction_source: DirectionSource,
@@ -26,10 +26,10 @@ pub struct RobotRecord {
     /// The apple's centre.
     pub center: [f64; 3],
     /// Direction of approach, a unit vector.
-    #[cfg_attr(test, schemars(with = "super::schema::UnitVector"))]
+    #[cfg_attr(test, schemars(with = "pomona_schema::UnitVector"))]
     pub direction: [f64; 3],
     /// Orientation of the tool, x y z w with w ≥ 0.
-    #[cfg_attr(test, schemars(with = "super::schema::UnitQuaternion"))]
+    #[cfg_attr(test, schemars(with = "pomona_schema::UnitQuaternion"))]
     pub quaternion_xyzw: [f64; 4],
     /// The same as angles about x, y, z, applied in the order Z–Y–X (Eq. 11 of the paper); x is 0.
     pub euler_zyx: [f64; 3],

@@ -7,7 +7,7 @@ use pomona_scenes::{Scene, Suite};
 use pomona_transforms::Transform;
 
 /// The camera looks along the robot's x axis, half a metre up.
-fn transform() -> RobotFromCamera {
+pub(crate) fn transform() -> RobotFromCamera {
     let transform = Transform::from_quaternion([0.0, 0.0, 0.5], [-0.5, 0.5, -0.5, 0.5]).unwrap();
     RobotFromCamera::new(transform, "base_link", "camera_color_optical_frame")
 }

@@ -1,7 +1,7 @@
 //! What is printed from a declaration.
 
 use crate::oven::{Heat, OvenConfig};
-use pomona_settings::{Description, Kind};
+use pomona_settings::{ConfigError, Description, Kind, set};
 use serde_json::json;
 
 #[test]
@@ -94,4 +94,24 @@ fn the_schema_has_every_bound() {
         heat[1],
         json!({"const": "hot-air", "description": "With a fan."})
     );
+}
+
+#[test]
+fn every_setting_has_another_value_that_its_rule_allows() {
+    for setting in Description::of::<OvenConfig>().settings {
+        let default = OvenConfig::default();
+        let others = setting.other_values();
+        // A unit vector has no other that is made by scaling.
+        assert_eq!(others.is_empty(), setting.path == "tray.normal");
+        for value in others {
+            let changed = set(&default, &setting.path, value.clone()).unwrap();
+            assert_ne!(changed, default, "{} = {value}", setting.path);
+            if let Err(ConfigError::Value { rule, .. }) = changed.validate() {
+                assert!(
+                    setting.relations.contains(&rule) || rule.contains(" = "),
+                    "{rule}"
+                );
+            }
+        }
+    }
 }

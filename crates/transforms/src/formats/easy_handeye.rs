@@ -12,7 +12,7 @@ const REMEDY: &str = "give a calibration file of easy_handeye or easy_handeye2: 
 pub enum HandEyeType {
     /// The camera is on the flange.
     EyeInHand,
-    /// The camera stands still in the base's frame.
+    /// The camera is fixed in the base frame.
     EyeOnBase,
 }
 

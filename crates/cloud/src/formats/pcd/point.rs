@@ -5,7 +5,7 @@ use std::io::{BufRead, Seek, Write};
 
 /// Position and colour of a point; other fields are passed over.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Record {
+pub(super) struct PcdPoint {
     pub(super) position: [f32; 3],
     pub(super) color: [u8; 3],
 }
@@ -31,7 +31,7 @@ pub(super) fn color_channel(field: &FieldDef) -> Option<Channel> {
     }
 }
 
-impl Record {
+impl PcdPoint {
     const NONE: Self = Self {
         position: [f32::NAN; 3],
         color: [0; 3],
@@ -89,7 +89,7 @@ fn packed_bits(token: &str) -> Option<u32> {
         .or_else(|| token.parse::<f32>().ok().map(f32::to_bits))
 }
 
-impl PcdDeserialize for Record {
+impl PcdDeserialize for PcdPoint {
     fn is_dynamic() -> bool {
         true
     }
@@ -154,7 +154,7 @@ fn bad_value(field: &FieldDef, problem: &str) -> Error {
     }
 }
 
-impl PcdSerialize for Record {
+impl PcdSerialize for PcdPoint {
     fn is_dynamic() -> bool {
         true
     }

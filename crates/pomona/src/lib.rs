@@ -78,11 +78,12 @@ pub use detection::{
 pub use error::PickError;
 pub use frame::CheckedFrame;
 pub use outcome::{
-    AppleAnswer, ApplePlan, BranchCandidate, DirectionSource, Evidence, FallbackDirection,
-    FittedApple, FittedBranch, FrameAnswer, NearestObstacle, PickDirection, PlannedApproach,
-    PlannedTurn, RobotFromCamera, RobotTarget, StageTimes, Status,
+    AppleAnswer, ApplePlan, BranchCandidate, CONFIDENCE_FEATURES, DirectionSource, Evidence,
+    FallbackDirection, FittedApple, FittedBranch, FrameAnswer, NearestObstacle, PickDirection,
+    PlannedApproach, PlannedTurn, RobotFromCamera, RobotTarget, StageTimes, Status,
 };
 pub use picker::Picker;
 pub use pomona_approach::{ApproachConfig, Gripper};
 pub use pomona_settings::ConfigError;
 pub use robot::{Robot, RobotPlan};
+pub use robust::CONFIDENCE_MODEL;

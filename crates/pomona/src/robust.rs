@@ -3,18 +3,21 @@
 
 mod apple;
 mod axis;
+mod axis_fit;
 mod blocks;
-mod spheroid;
 mod branch;
 mod confidence;
-mod silhouette;
+mod cross_section;
 mod line_hypothesis;
 mod ray;
 mod shell;
+mod silhouette;
 mod sphere;
+mod spheroid;
 mod strips;
 mod viewpoint;
-mod cross_section;
+
+pub use confidence::CONFIDENCE_MODEL;
 
 use crate::config::{Config, RobustConfig};
 use crate::frame::CheckedFrame;
@@ -24,12 +27,12 @@ use crate::outcome::{
 };
 use apple::{AppleBuffers, AppleSearch, MARGIN_PX, SeenApple};
 use branch::{Candidate, Search};
+use cross_section::CrossSection;
 use pomona_cloud::{PixelBox, PixelWindow};
 use pomona_transforms::{Direction, Position, PositionCovariance};
 use rand_chacha::ChaCha8Rng;
 use shell::{APPLE, Shell};
 use std::time::Instant;
-use cross_section::CrossSection;
 
 /// Radii about the centre within which branches are looked for, beside the length along them.
 const SHELL_MARGIN: f64 = 0.4;
@@ -147,7 +150,9 @@ fn decide(
         .sqrt()
         .hypot(best.foot_sd)
         / best.distance.max(1e-3);
-    let confidence = confidence::confidence(found, ranked);
+    let features = confidence::features(found, ranked);
+    let confidence = features.as_ref().map_or(0.0, confidence::probability);
+    answer.evidence.confidence_features = features;
     answer.confidence = Some(confidence);
     let foot = Position::new(best.foot);
     answer.branch = Some(FittedBranch::new(
@@ -186,7 +191,7 @@ fn branch_candidate(c: &Candidate) -> BranchCandidate {
         shown_lesser_side_m: c.support.visible_shorter_side,
         odd_m: c.support.atypical,
         empty_m: c.support.empty,
-        hidden_m: c.support.hidden,
+        hidden_m: c.support.occluded,
         ..BranchCandidate::new(foot, tangent, c.axis.radius, c.distance, c.score)
     }
 }

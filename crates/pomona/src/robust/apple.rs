@@ -1,9 +1,11 @@
 //! One apple: from the readings of its box to its spheroid.
 
 use super::blocks::{Area, Blocks};
-use super::spheroid::{Spheroid, SpheroidFit, SpheroidPrior, FitSchedule, SurfaceObservations, fit_spheroid};
 use super::silhouette::{agreement, silhouette_rays};
 use super::sphere::{BoxRays, candidates, support};
+use super::spheroid::{
+    FitSchedule, Spheroid, SpheroidFit, SpheroidPrior, SurfaceObservations, fit_spheroid,
+};
 use crate::config::{FruitConfig, RobustConfig};
 use crate::optics::{DepthNoise, DepthPatch, Projection, depth_jump_m};
 use crate::outcome::Status;
@@ -20,6 +22,29 @@ const ROUND_SD_M: f64 = 0.0015;
 
 /// Within how much of a sphere a block of readings supports it, metres, beside its noise.
 const ROUND_SUPPORT_M: f64 = 0.0008;
+
+/// Standard deviations within which a block supports a sphere: about 99 % of Gaussian ones.
+const SUPPORT_SIGMAS: f64 = 2.5;
+
+/// Pixels from its silhouette within which a silhouette ray agrees with a spheroid.
+const SILHOUETTE_TOLERANCE_PX: f64 = 2.5;
+
+/// Depth of an apple's visible surface before its centre, as a share of the radius, for the scale of its box.
+const SURFACE_BEFORE_CENTER: f64 = 0.25;
+
+/// Cut-offs of the robust weight, standard deviations, while spheres compete: two steps, then two after the
+/// silhouette has been found again.
+const SPHERE_CUTOFFS: [[f64; 2]; 2] = [[5.0, 3.5], [3.0, 3.0]];
+
+/// Cut-offs of the two fits of the flattened spheroid.
+const FIRST_CUTOFFS: [f64; 4] = [5.0, 4.0, 3.5, 3.0];
+const LAST_CUTOFFS: [f64; 4] = [3.0; 4];
+
+/// How much of its flattening a spheroid's equator exceeds the sphere fitted to it: mean over the directions seen.
+const SPHERE_TO_EQUATOR: f64 = 0.3;
+
+/// Mean stem axis before an apple is seen, z over −y: up in the image, a little towards the camera.
+const STEM_LEAN: f64 = -0.2;
 
 /// Fewest blocks of readings that make an apple.
 const LEAST_BLOCKS: usize = 8;
@@ -85,7 +110,7 @@ impl AppleSearch<'_> {
             .iter()
             .fold(f32::INFINITY, |a, &b| a.min(b));
         let sigma = noise.sigma(f64::from(front)) * self.shared(1.0 / side as f64);
-        let threshold = 2.5 * sigma.hypot(ROUND_SUPPORT_M);
+        let threshold = SUPPORT_SIGMAS * sigma.hypot(ROUND_SUPPORT_M);
         let spheres = candidates(
             &buffers.blocks,
             &bounds,
@@ -140,7 +165,7 @@ impl AppleSearch<'_> {
         self.projection.pixel_m(spheroid.center.z)
     }
 
-    /// What is believed of the apple: of its radius by the smaller side of the box, where boxes are trusted so far.
+    /// The prior of the apple; of its radius by the smaller side of the box where the settings trust boxes.
     fn prior(&self, blocks: &Blocks) -> SpheroidPrior {
         let config = self.config;
         let mean = config.radius_mean_m.unwrap_or(self.fruit.prior_mean());
@@ -151,7 +176,7 @@ impl AppleSearch<'_> {
             let mut depths = blocks.z.clone();
             let third = depths.len() / 3;
             let (_, depth, _) = depths.select_nth_unstable_by(third, f32::total_cmp);
-            let depth = f64::from(*depth) + 0.25 * mean;
+            let depth = f64::from(*depth) + SURFACE_BEFORE_CENTER * mean;
             let radius = 0.5 * side * self.projection.pixel_m(depth);
             let tried = self.fruit.hypotheses();
             let radius = radius.clamp(tried.least, tried.most);
@@ -217,15 +242,26 @@ impl AppleSearch<'_> {
         for sphere in spheres {
             let spheroid = Spheroid::round(sphere, up());
             let refined = self
-                .refit(spheroid, &prior, &schedule(&[5.0, 3.5]), buffers)
-                .and_then(|first| self.refit(first.spheroid, &prior, &schedule(&[3.0, 3.0]), buffers));
+                .refit(spheroid, &prior, &schedule(&SPHERE_CUTOFFS[0]), buffers)
+                .and_then(|first| {
+                    self.refit(
+                        first.spheroid,
+                        &prior,
+                        &schedule(&SPHERE_CUTOFFS[1]),
+                        buffers,
+                    )
+                });
             let Some(spheroid) = refined.map(|fit| fit.spheroid) else {
                 continue;
             };
             if !tried.contains(spheroid.radius) {
                 continue;
             }
-            let outline = agreement(&buffers.rays, &spheroid, 2.5 * self.pixel(&spheroid));
+            let outline = agreement(
+                &buffers.rays,
+                &spheroid,
+                SILHOUETTE_TOLERANCE_PX * self.pixel(&spheroid),
+            );
             let score = support(&buffers.blocks, &spheroid.sphere(), threshold)
                 - config.box_weight * bounds.disagreement(&spheroid.sphere())
                 + OUTLINE_WEIGHT * outline;
@@ -240,10 +276,10 @@ impl AppleSearch<'_> {
     fn flattened(&self, sphere: Spheroid, buffers: &mut AppleBuffers) -> Option<SpheroidFit> {
         let flattening = self.config.flattening_mean;
         let start = Spheroid {
-            radius: sphere.radius * (1.0 + 0.3 * flattening),
+            radius: sphere.radius * (1.0 + SPHERE_TO_EQUATOR * flattening),
             flattening,
             // Leant a little towards the camera: straight up, the fit would not know which way to turn it.
-            axis: Unit::new_normalize(Vector3::new(0.0, -1.0, -0.2)),
+            axis: Unit::new_normalize(Vector3::new(0.0, -1.0, STEM_LEAN)),
             ..sphere
         };
         let prior = self.prior(&buffers.blocks);
@@ -252,13 +288,13 @@ impl AppleSearch<'_> {
             fix_shape: false,
             reject_outlying_rays,
         };
-        let first = self.refit(
-            start,
+        let first = self.refit(start, &prior, &schedule(&FIRST_CUTOFFS, false), buffers)?;
+        self.refit(
+            first.spheroid,
             &prior,
-            &schedule(&[5.0, 4.0, 3.5, 3.0], false),
+            &schedule(&LAST_CUTOFFS, true),
             buffers,
-        )?;
-        self.refit(first.spheroid, &prior, &schedule(&[3.0; 4], true), buffers)
+        )
     }
 }
 

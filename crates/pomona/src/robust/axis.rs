@@ -15,7 +15,7 @@ pub(crate) struct BranchAxis {
     deep: Vector3<f64>,
     /// Coefficients of 1, s, s² of the way lateral.
     pub(crate) lateral: Vector3<f64>,
-    /// Coefficients of 1, s, s² of the way in depth.
+    /// Coefficients of 1, s, s² of the offset away from the camera.
     pub(crate) depth_offset: Vector3<f64>,
     /// Radius of the branch.
     pub(crate) radius: f64,
@@ -76,9 +76,9 @@ impl BranchAxis {
     }
 }
 
-/// A value seen at a place along the axis.
+/// A value observed at a place along the axis.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Sample {
+pub(crate) struct Observation {
     pub(crate) s: f64,
     pub(crate) value: f64,
     pub(crate) weight: f64,
@@ -104,10 +104,15 @@ impl Parabola {
 
     /// Fits samples of standard deviation `scale` by reweighted least squares, from their median on.
     ///
-    /// `bend_sd` is the believed standard deviation of the coefficient of s², per metre; slopes and offsets are believed
-    /// only weakly (0.7; 20 mm). `cuts` tells where the robust weight ends for each step, in scales. `None` for fewer than four
+    /// `bend_sd` is the prior standard deviation of the coefficient of s², per metre; the priors of slope and offset are
+    /// weak (0.7; 20 mm). `cuts` tells where the robust weight ends for each step, in scales. `None` for fewer than four
     /// samples or where no sample is left.
-    pub(crate) fn fit(samples: &[Sample], bend_sd: f64, scale: f64, cuts: &[f64]) -> Option<Self> {
+    pub(crate) fn fit(
+        samples: &[Observation],
+        bend_sd: f64,
+        scale: f64,
+        cuts: &[f64],
+    ) -> Option<Self> {
         const OFFSET_SD_M: f64 = 0.02;
         const SLOPE_SD: f64 = 0.7;
         if samples.len() < 4 {
@@ -135,8 +140,8 @@ impl Parabola {
             if weights <= 0.0 {
                 return None;
             }
-            let beliefs = [OFFSET_SD_M, SLOPE_SD, bend_sd];
-            for (k, sd) in beliefs.into_iter().enumerate() {
+            let priors = [OFFSET_SD_M, SLOPE_SD, bend_sd];
+            for (k, sd) in priors.into_iter().enumerate() {
                 normal[(k, k)] += (scale / sd).powi(2);
             }
             let solved = normal.cholesky()?;
@@ -158,12 +163,12 @@ mod tests {
 
     #[test]
     fn a_parabola_among_outliers_is_found() {
-        let samples: Vec<Sample> = (-40..=40)
+        let samples: Vec<Observation> = (-40..=40)
             .map(|k| {
                 let s = f64::from(k) * 0.002;
                 let wild = if k % 7 == 0 { 0.015 } else { 0.0 };
                 let value = 0.001 + 0.1 * s + 0.15 * s * s + wild;
-                Sample {
+                Observation {
                     s,
                     value,
                     weight: 1.0,

@@ -1,7 +1,7 @@
 //! Where the apple ends before the background: rays that graze its spheroid.
 
-use super::spheroid::Spheroid;
 use super::ray::nearest_on_ray;
+use super::spheroid::Spheroid;
 use crate::optics::{DepthPatch, Projection};
 use nalgebra::{Unit, Vector3};
 
@@ -11,14 +11,26 @@ const DIRECTIONS: usize = 96;
 /// Missing readings over which the surface may go on, pixels.
 const BRIDGE_PX: usize = 8;
 
-/// Pixels beyond the end that must not be surface.
-const BEYOND_PX: usize = 4;
+/// Pixels after the last one of the surface that must not be surface.
+const CLEARANCE_PX: usize = 4;
 
 /// Mixed readings at an edge make its last good pixel lie further in than half a pixel.
 const EDGE_PX: f64 = 0.7;
 
+/// Difference in depth from the surface that still is surface: standard deviations of a reading, …
+const SURFACE_SIGMAS: f64 = 3.0;
+
+/// … and a share of the radius, for what the shape is off.
+const SURFACE_SHARE: f64 = 0.06;
+
+/// Where the silhouette is sought along a direction from the centre of the image of the apple, radii …
+const SEARCH_RADII: (f64, f64) = (0.6, 1.3);
+
+/// … and pixels beyond the far end.
+const SEARCH_MARGIN_PX: f64 = 4.0;
+
 /// Finds rays that graze the spheroid: from its middle outwards, the end of the last pixel that shows its surface,
-/// where what follows is farther away or no reading at all. Where something nearer follows, the outline is hidden
+/// where what follows is farther away or no reading at all. Where something nearer follows, the silhouette is occluded
 /// and there is no ray.
 pub(crate) fn silhouette_rays(
     patch: &DepthPatch,
@@ -33,8 +45,9 @@ pub(crate) fn silhouette_rays(
         return;
     };
     let r_px = r / projection.pixel_m((c.z * c.z - r * r).max(0.01).sqrt());
-    let tolerance = 3.0 * sigma + 0.06 * r;
-    let steps: Vec<f64> = ((0.6 * r_px) as usize..=(1.3 * r_px + 4.0) as usize)
+    let tolerance = SURFACE_SIGMAS * sigma + SURFACE_SHARE * r;
+    let steps: Vec<f64> = ((SEARCH_RADII.0 * r_px) as usize
+        ..=(SEARCH_RADII.1 * r_px + SEARCH_MARGIN_PX) as usize)
         .map(|step| step as f64)
         .collect();
     let depths: Vec<f64> = steps
@@ -81,7 +94,7 @@ fn last_surface_pixel(
             }
         }
     }
-    last.filter(|_| after >= BEYOND_PX)
+    last.filter(|_| after >= CLEARANCE_PX)
 }
 
 /// Of all directions, the share whose ray grazes the spheroid within `tolerance`, less the share whose ray enters

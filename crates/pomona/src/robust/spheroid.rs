@@ -44,7 +44,7 @@ impl Spheroid {
     }
 }
 
-/// What is believed of an apple before it is seen: means and standard deviations.
+/// The prior of an apple: means and standard deviations before it is seen.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SpheroidPrior {
     pub(crate) radius: (f64, f64),
@@ -67,7 +67,7 @@ pub(crate) struct SurfaceObservations<'a> {
     pub(crate) noise: DepthNoise,
 }
 
-/// How a fit goes about it.
+/// The iterations of a fit, and what it holds fixed.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct FitSchedule<'a> {
     /// Where the robust weight ends, in standard deviations, for each step.
@@ -93,7 +93,24 @@ pub(crate) struct SpheroidFit {
     pub(crate) weight: f64,
 }
 
+/// Parameters of a spheroid: centre, radius, flattening, and two turns of its axis.
 const N: usize = 7;
+
+/// Largest turn of the axis in one step, radians.
+const MAX_TURN_RAD: f64 = 0.5;
+
+/// Largest shift of the centre in one step, metres: no apple's fit needs more.
+const MAX_SHIFT_M: f64 = 0.03;
+
+/// Flattening within which a fit stays: apples are up to a quarter lower than wide, some a little higher.
+const FLATTENING_RANGE: (f64, f64) = (-0.05, 0.25);
+
+/// Variance of a reading across its ray, as a share of that along it.
+const LATERAL_NOISE: f64 = 0.02;
+
+/// Standard deviations from which the weight of a ray that enters the spheroid falls as 1/|e| (Huber 1964, doi
+/// 10.1214/aoms/1177703732): background seen through it counts however deep it is.
+const OUTSIDE_HUBER: f64 = 0.7;
 
 /// Weight of Tukey's biweight for a residual of `e` scales, 0 from `cut` on.
 pub(crate) fn biweight(e: f64, cut: f64) -> f64 {
@@ -128,39 +145,45 @@ pub(crate) fn fit_spheroid(
     let mut spheroid = start;
     let mut last = None;
     for &cut in schedule.cuts {
-        let mut sums = Sums::of(observations, &spheroid, prior.shape_sd, cut, schedule.reject_outlying_rays);
-        sums.believe(&spheroid, prior);
+        let mut equations = NormalEquations::of(
+            observations,
+            &spheroid,
+            prior.shape_sd,
+            cut,
+            schedule.reject_outlying_rays,
+        );
+        equations.add_prior(&spheroid, prior);
         if schedule.fix_shape {
-            sums.freeze(4..N);
+            equations.hold_fixed(4..N);
         }
-        if sums.weights < LEAST_WEIGHT {
+        if equations.weights < LEAST_WEIGHT {
             return None;
         }
-        let factor = sums.normal.cholesky()?;
-        spheroid = stepped(&spheroid, &factor.solve(&(-sums.gradient)))?;
-        last = Some((factor.inverse(), sums));
+        let factor = equations.normal.cholesky()?;
+        spheroid = stepped(&spheroid, &factor.solve(&(-equations.gradient)))?;
+        last = Some((factor.inverse(), equations));
     }
-    let (inverse, sums) = last?;
+    let (inverse, equations) = last?;
     // Scatter beyond what was assumed widens the covariance.
-    let excess = (sums.squares / sums.weights.max(1.0)).max(1.0);
+    let excess = (equations.squares / equations.weights.max(1.0)).max(1.0);
     Some(SpheroidFit {
         spheroid,
         covariance: inverse.fixed_view::<3, 3>(0, 0).into_owned() * excess,
         radius_sd: (inverse[(3, 3)] * excess).sqrt(),
-        rms: (sums.raw / sums.weights.max(1e-9)).sqrt(),
-        weight: sums.point_weights,
+        rms: (equations.raw / equations.weights.max(1e-9)).sqrt(),
+        weight: equations.point_weights,
     })
 }
 
 fn stepped(spheroid: &Spheroid, step: &SVector<f64, N>) -> Option<Spheroid> {
     let (e, f) = across(&spheroid.axis);
     // Steps that no apple's fit needs are cut short.
-    let turn = (e * step[5] + f * step[6]).cap_magnitude(0.5);
-    let way = Vector3::new(step[0], step[1], step[2]).cap_magnitude(0.03);
+    let turn = (e * step[5] + f * step[6]).cap_magnitude(MAX_TURN_RAD);
+    let shift = Vector3::new(step[0], step[1], step[2]).cap_magnitude(MAX_SHIFT_M);
     let next = Spheroid {
-        center: spheroid.center + way,
+        center: spheroid.center + shift,
         radius: (spheroid.radius + step[3]).clamp(0.5 * spheroid.radius, 2.0 * spheroid.radius),
-        flattening: (spheroid.flattening + step[4]).clamp(-0.05, 0.25),
+        flattening: (spheroid.flattening + step[4]).clamp(FLATTENING_RANGE.0, FLATTENING_RANGE.1),
         axis: Unit::try_new(spheroid.axis.into_inner() + turn, 1e-9)?,
     };
     let finite = next.center.iter().all(|c| c.is_finite()) && next.radius.is_finite();
@@ -168,7 +191,7 @@ fn stepped(spheroid: &Spheroid, step: &SVector<f64, N>) -> Option<Spheroid> {
 }
 
 /// The normal equations of one step.
-struct Sums {
+struct NormalEquations {
     normal: SMatrix<f64, N, N>,
     gradient: SVector<f64, N>,
     weights: f64,
@@ -177,9 +200,15 @@ struct Sums {
     raw: f64,
 }
 
-impl Sums {
-    fn of(observations: &SurfaceObservations<'_>, spheroid: &Spheroid, shape_sd: f64, cut: f64, reject_outlying_rays: bool) -> Self {
-        let mut sums = Self {
+impl NormalEquations {
+    fn of(
+        observations: &SurfaceObservations<'_>,
+        spheroid: &Spheroid,
+        shape_sd: f64,
+        cut: f64,
+        reject_outlying_rays: bool,
+    ) -> Self {
+        let mut equations = Self {
             normal: SMatrix::zeros(),
             gradient: SVector::zeros(),
             weights: 0.0,
@@ -194,15 +223,16 @@ impl Sums {
             let along = d.dot(&p.coords).powi(2) / (d.norm_squared() * p.coords.norm_squared());
             let reading = (observations.noise.sigma(p.z) * share).powi(2);
             // Seen at a slant a reading's noise lies within the surface, but for that of its place on the image.
-            let variance = shape + reading * (along + 0.02);
-            sums.point_weights += sums.add(spheroid, &frame, p, variance, |e| biweight(e, cut));
+            let variance = shape + reading * (along + LATERAL_NOISE);
+            equations.point_weights +=
+                equations.add(spheroid, &frame, p, variance, |e| biweight(e, cut));
         }
         let variance = shape + observations.ray_sd.powi(2);
         for ray in observations.rays {
             let p = nearest_on_ray(ray, &spheroid.center);
-            sums.add(spheroid, &frame, &p, variance, |e| {
+            equations.add(spheroid, &frame, &p, variance, |e| {
                 if e < 0.0 && !reject_outlying_rays {
-                    (0.7 / -e).min(1.0)
+                    (OUTSIDE_HUBER / -e).min(1.0)
                 } else {
                     biweight(e, cut)
                 }
@@ -210,10 +240,10 @@ impl Sums {
         }
         for a in 0..N {
             for b in 0..a {
-                sums.normal[(a, b)] = sums.normal[(b, a)];
+                equations.normal[(a, b)] = equations.normal[(b, a)];
             }
         }
-        sums
+        equations
     }
 
     /// Adds a point that should lie on the surface; its robust weight is returned.
@@ -262,18 +292,22 @@ impl Sums {
         robust
     }
 
-    fn believe(&mut self, spheroid: &Spheroid, prior: &SpheroidPrior) {
+    fn add_prior(&mut self, spheroid: &Spheroid, prior: &SpheroidPrior) {
         let (e1, e2) = across(&spheroid.axis);
         // An axis has no sign.
-        let believed = prior.axis.into_inner() * spheroid.axis.dot(&prior.axis).signum();
-        let off = spheroid.axis.into_inner() - believed;
-        let beliefs = [
+        let expected = prior.axis.into_inner() * spheroid.axis.dot(&prior.axis).signum();
+        let off = spheroid.axis.into_inner() - expected;
+        let priors = [
             (3, spheroid.radius - prior.radius.0, prior.radius.1),
-            (4, spheroid.flattening - prior.flattening.0, prior.flattening.1),
+            (
+                4,
+                spheroid.flattening - prior.flattening.0,
+                prior.flattening.1,
+            ),
             (5, off.dot(&e1), prior.axis_sd),
             (6, off.dot(&e2), prior.axis_sd),
         ];
-        for (k, off, sd) in beliefs {
+        for (k, off, sd) in priors {
             let w = 1.0 / (sd * sd);
             self.normal[(k, k)] += w;
             self.gradient[k] += w * off;
@@ -284,7 +318,7 @@ impl Sums {
         }
     }
 
-    fn freeze(&mut self, parameters: std::ops::Range<usize>) {
+    fn hold_fixed(&mut self, parameters: std::ops::Range<usize>) {
         for k in parameters {
             self.normal.row_mut(k).fill(0.0);
             self.normal.column_mut(k).fill(0.0);

@@ -1,8 +1,8 @@
 //! `cargo xtask ci`: everything that a change must pass.
 
 use crate::{
-    docs, regress, standalone, tidy,
-    workspace::{Package, Workspace, cargo},
+    deny, docs, features, msrv, package, regress, semver, standalone, tidy,
+    workspace::{Workspace, cargo},
 };
 use anyhow::{Context, Result, bail, ensure};
 use std::time::Instant;
@@ -25,23 +25,6 @@ enum Action {
         run: fn() -> Result<()>,
     },
 }
-
-/// What only a build with features shows, by the package that has them: lints and tests that the workspace's own leave
-/// out. Of the command line only the tests that need the feature run a second time.
-const FEATURE_TESTS: [(&str, &str); 3] = [
-    (
-        "pomona-cli",
-        "clippy --package pomona-messages --package pomona-cli --features mcap --all-targets -- -D warnings",
-    ),
-    (
-        "pomona-messages",
-        "test --package pomona-messages --features mcap --test messages recording",
-    ),
-    (
-        "pomona-cli",
-        "test --package pomona-cli --features mcap --test cli mcap",
-    ),
-];
 
 /// Runs every step, cheap ones first, and stops at the first that fails.
 pub(crate) fn run() -> Result<()> {
@@ -73,20 +56,40 @@ fn steps(workspace: &Workspace) -> Vec<Step> {
     let mut steps = vec![
         Step::cargo("fmt", "fmt --all --check"),
         Step::own("tidy", "tidy", tidy::run),
-        Step::cargo("clippy", "clippy --workspace --all-targets -- -D warnings"),
+        Step::own("msrv", "msrv", msrv::run),
+        Step::cargo(
+            "clippy",
+            "clippy --workspace --all-features --all-targets -- -D warnings",
+        ),
     ];
-    steps.extend(workspace.packages.iter().flat_map(feature_builds));
-    steps.push(Step::cargo("test", "test --workspace"));
-    let has = |package: &str| workspace.packages.iter().any(|p| p.name == package);
-    let tested = FEATURE_TESTS.iter().filter(|(package, _)| has(package));
-    steps.extend(tested.map(|(_, arguments)| Step::cargo("features", arguments)));
-    let mut doc = Step::cargo("doc", "doc --workspace --no-deps");
+    steps.extend(features::selections(workspace).iter().map(|selection| {
+        let arguments = format!("clippy {selection} -- -D warnings");
+        Step::cargo("features", &arguments)
+    }));
+    steps.push(Step::cargo(
+        "test",
+        "test --workspace --all-features --tests",
+    ));
+    steps.push(Step::cargo(
+        "doctests",
+        "test --workspace --all-features --doc",
+    ));
+    let mut doc = Step::cargo("doc", "doc --workspace --all-features --no-deps");
     if let Action::Cargo { variable, .. } = &mut doc.action {
         *variable = Some(("RUSTDOCFLAGS", "-D warnings"));
     }
     steps.push(doc);
     steps.push(Step::own("standalone", "standalone", || {
         standalone::run(&standalone::Args::default())
+    }));
+    steps.push(Step::own("package", "package --list", || {
+        package::run(&package::Args::LIST)
+    }));
+    steps.push(Step::own("deny", "deny", || {
+        deny::run(&deny::Args::default())
+    }));
+    steps.push(Step::own("semver", "semver", || {
+        semver::run(&semver::Args::default())
     }));
     // Both run the program as the tests have built it.
     steps.push(Step::own("regress", "regress --build tested", || {
@@ -96,30 +99,6 @@ fn steps(workspace: &Workspace) -> Vec<Step> {
         docs::run(&docs::Args::CHECK)
     }));
     steps
-}
-
-/// A package with features is built alone without any, with each, and with all.
-fn feature_builds(package: &Package) -> Vec<Step> {
-    let features: Vec<&String> = package
-        .features
-        .keys()
-        .filter(|f| *f != "default")
-        .collect();
-    if features.is_empty() {
-        return Vec::new();
-    }
-    let mut choices = vec!["--no-default-features".to_string()];
-    choices.extend(
-        features
-            .iter()
-            .map(|f| format!("--no-default-features --features {f}")),
-    );
-    if features.len() > 1 {
-        choices.push("--all-features".into());
-    }
-    let name = &package.name;
-    let step = |choice| Step::cargo("features", &format!("check --package {name} {choice}"));
-    choices.into_iter().map(step).collect()
 }
 
 impl Step {
@@ -190,52 +169,14 @@ mod tests {
             .map(|step| step.action.command_line())
             .collect();
         assert_eq!(lines[0], "cargo fmt --all --check");
-        assert_eq!(
-            lines[4],
-            "RUSTDOCFLAGS=\"-D warnings\" cargo doc --workspace --no-deps"
+        assert!(
+            lines.contains(
+                &"RUSTDOCFLAGS=\"-D warnings\" cargo doc --workspace --all-features --no-deps"
+                    .to_owned()
+            )
         );
-        assert_eq!(lines[5], "cargo xtask standalone");
-        assert_eq!(lines[6], "cargo xtask regress --build tested");
-        assert_eq!(lines[7], "cargo xtask docs --check --build tested");
-    }
-
-    #[test]
-    fn tests_of_features_run_where_their_package_is() {
-        let metadata = r#"{"name": "pomona-messages", "manifest_path": "/x/Cargo.toml", "dependencies": [],
-            "targets": [], "features": {}}"#;
-        let workspace = Workspace::of(vec![serde_json::from_str(metadata).unwrap()]);
-        let lines: Vec<String> = steps(&workspace)
-            .iter()
-            .map(|step| step.action.command_line())
-            .collect();
-        let after = lines
-            .iter()
-            .position(|l| l == "cargo test --workspace")
-            .unwrap();
-        assert_eq!(
-            lines[after + 1],
-            "cargo test --package pomona-messages --features mcap --test messages recording"
-        );
-        assert!(!lines.iter().any(|l| l.contains("pomona-cli")));
-    }
-
-    #[test]
-    fn features_are_built_one_by_one() {
-        let metadata = r#"{"name": "x", "manifest_path": "/x/Cargo.toml", "dependencies": [],
-            "targets": [], "features": {"default": ["a"], "a": [], "b": []}}"#;
-        let package: Package = serde_json::from_str(metadata).unwrap();
-        let lines: Vec<String> = feature_builds(&package)
-            .iter()
-            .map(|step| step.action.command_line())
-            .collect();
-        assert_eq!(
-            lines,
-            [
-                "cargo check --package x --no-default-features",
-                "cargo check --package x --no-default-features --features a",
-                "cargo check --package x --no-default-features --features b",
-                "cargo check --package x --all-features",
-            ]
-        );
+        let last = &lines[lines.len() - 2..];
+        assert_eq!(last[0], "cargo xtask regress --build tested");
+        assert_eq!(last[1], "cargo xtask docs --check --build tested");
     }
 }

@@ -1,17 +1,23 @@
 //! The project's own commands: `cargo xtask COMMAND`.
 //!
-//! `ci` is everything that a change must pass; `tidy` the rules that no
-//! compiler knows; `regress` whether any result got worse; `ablate` what each idea is worth; `bench` how fast and how exact we are, and the peers;
-//! `standalone` and `semver` what those need who add the engine to programs of their own.
+//! `ci` is everything that a change must pass; `tidy` the rules that no compiler knows; `regress` whether any
+//! result got worse; `docs` that README and docs show what the program prints; `survey` how large each crate is; `ablate`
+//! what each idea is worth; `bench` how fast and how accurate we and others are. `standalone`, `package`, `deny`,
+//! `msrv` and `semver` are for those who build on the libraries.
 //!
 //! No algorithm lives here and none is linked in: commands start the programs
 //! of the workspace and read what they print.
 
 mod ablate;
 mod bench;
+mod book;
 mod ci;
+mod deny;
 mod docs;
+mod features;
 mod modules;
+mod msrv;
+mod package;
 mod program;
 mod regress;
 mod semver;
@@ -40,6 +46,14 @@ enum Command {
     Tidy,
     /// Fills README and docs with what the program prints
     Docs(docs::Args),
+    /// Do the dependencies' licences, sources and known faults suit us?
+    Deny(deny::Args),
+    /// Does everything build with the oldest compiler that the manifest names?
+    Msrv,
+    /// Would a registry accept every library, and does it build from what lies there?
+    Package(package::Args),
+    /// Builds docs/ as a book, where mdBook is installed
+    Book,
     /// How large each crate is, and how its modules depend on one another
     Survey(survey::Args),
     /// How long it takes and how far off it is, ours and the peers'
@@ -50,7 +64,7 @@ enum Command {
     Ablate(ablate::Args),
     /// Does a copy of the engine's folder build without the rest of the workspace?
     Standalone(standalone::Args),
-    /// Does the engine's interface still suit those who built against its last release?
+    /// Do our libraries still suit those who built against their last release?
     Semver(semver::Args),
 }
 
@@ -59,6 +73,10 @@ fn main() -> ExitCode {
         Command::Ci => ci::run(),
         Command::Tidy => tidy::run(),
         Command::Docs(args) => docs::run(&args),
+        Command::Deny(args) => deny::run(&args),
+        Command::Msrv => msrv::run(),
+        Command::Package(args) => package::run(&args),
+        Command::Book => book::run(),
         Command::Survey(args) => survey::run(&args),
         Command::Bench(args) => bench::run(&args),
         Command::Regress(args) => regress::run(&args),

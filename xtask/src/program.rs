@@ -27,7 +27,16 @@ impl Program {
                 "release",
             ),
             // The tests of the command line bring the program along, with the same features as theirs.
-            Build::Tested => (&["test", "--workspace", "--no-run"], "debug"),
+            Build::Tested => (
+                &[
+                    "test",
+                    "--workspace",
+                    "--all-features",
+                    "--tests",
+                    "--no-run",
+                ],
+                "debug",
+            ),
         };
         let status = cargo()
             .args(arguments)

@@ -1,42 +1,53 @@
-//! `cargo xtask semver`: does the engine's interface still suit those who built against its last release?
+//! `cargo xtask semver`: do our libraries still suit those who built against their last release?
 //!
-//! A release is a tag `pomona-ransac-vX.Y.Z`. The comparison is that of `cargo-semver-checks`, which
-//! reads what rustdoc knows of both versions.
+//! A release of the engine is a tag `pomona-ransac-vX.Y.Z`; the other libraries are released together, by a tag
+//! `vX.Y.Z`. The comparison is that of `cargo-semver-checks`, which reads what rustdoc knows of both versions.
 
-use crate::workspace::{cargo, root};
-use anyhow::{Context, Result, bail, ensure};
+use crate::workspace::{Workspace, cargo, root};
+use anyhow::{Context, Result, ensure};
 use std::process::{Command, Stdio};
 
 const ENGINE: &str = "pomona-ransac";
+const ENGINE_TAG: &str = "pomona-ransac-v";
+const TAG: &str = "v";
 
 /// What to compare with.
-#[derive(clap::Args)]
+#[derive(clap::Args, Default)]
 pub(crate) struct Args {
     /// This tag, or any other revision, in place of the newest release
     #[arg(long, value_name = "TAG")]
     against: Option<String>,
 }
 
-/// Compares, and says what would break; an error where the version number does not own up to it.
+/// Compares, and says what would break; an error where a version number does not own up to it.
 pub(crate) fn run(args: &Args) -> Result<()> {
+    let workspace = Workspace::read()?;
+    let libraries = workspace
+        .packages
+        .iter()
+        .filter(|p| p.is_public() && p.root_file("lib").is_some());
+    let (engine, others): (Vec<&str>, Vec<&str>) = libraries
+        .map(|p| p.name.as_str())
+        .partition(|name| *name == ENGINE);
+    compare(args, ENGINE_TAG, &engine)?;
+    compare(args, TAG, &others)
+}
+
+fn compare(args: &Args, prefix: &str, packages: &[&str]) -> Result<()> {
     let release = match &args.against {
         Some(tag) => {
-            ensure!(
-                git(&[
-                    "rev-parse",
-                    "--verify",
-                    "--quiet",
-                    &format!("{tag}^{{commit}}")
-                ])
-                .is_ok(),
-                "there is no tag or revision `{tag}`"
-            );
+            let commit = format!("{tag}^{{commit}}");
+            let known = git(&["rev-parse", "--verify", "--quiet", &commit]);
+            ensure!(known.is_ok(), "there is no tag or revision `{tag}`");
             Some(tag.clone())
         }
-        None => newest(&git(&["tag", "--list"])?),
+        None => newest(prefix, &git(&["tag", "--list"])?),
     };
     let Some(release) = release else {
-        println!("semver: no tag {ENGINE}-v* yet, nothing to compare");
+        println!(
+            "semver: no tag {prefix}* yet, nothing to compare {} with",
+            packages.join(", ")
+        );
         return Ok(());
     };
     let installed = cargo()
@@ -45,22 +56,27 @@ pub(crate) fn run(args: &Args) -> Result<()> {
         .stderr(Stdio::null())
         .status()
         .context("cannot start cargo")?;
-    if !installed.success() {
-        bail!(
-            "cargo-semver-checks is not installed, so {ENGINE} was not compared with {release}\n    \
-             get it by `cargo install cargo-semver-checks --locked`, which takes some minutes, \
-             and run this again"
-        );
+    ensure!(
+        installed.success(),
+        "cargo-semver-checks is not installed, so nothing was compared with {release}\n    \
+         get it by `cargo install cargo-semver-checks --locked`, which takes some minutes, and run this again"
+    );
+    println!("semver: {} against {release}", packages.join(", "));
+    let mut command = cargo();
+    command.args([
+        "semver-checks",
+        "check-release",
+        "--all-features",
+        "--baseline-rev",
+        &release,
+    ]);
+    for package in packages {
+        command.args(["--package", package]);
     }
-    println!("semver: {ENGINE} as it is against {release}");
-    let status = cargo()
-        .args(["semver-checks", "check-release", "--all-features"])
-        .args(["--package", ENGINE, "--baseline-rev", &release])
-        .status()
-        .context("cannot start cargo")?;
+    let status = command.status().context("cannot start cargo")?;
     ensure!(
         status.success(),
-        "{ENGINE} breaks those who built against {release}, or could not be compared: see above"
+        "what was built against {release} would break, or could not be compared: see above"
     );
     Ok(())
 }
@@ -76,10 +92,10 @@ fn git(arguments: &[&str]) -> Result<String> {
     Ok(String::from_utf8_lossy(&output.stdout).into_owned())
 }
 
-/// The tag of the highest version of the engine; a pre-release counts for no release.
-fn newest(tags: &str) -> Option<String> {
+/// The tag of the highest version; a pre-release counts for no release.
+fn newest(prefix: &str, tags: &str) -> Option<String> {
     let version = |tag: &str| -> Option<[u64; 3]> {
-        let rest = tag.strip_prefix(ENGINE)?.strip_prefix("-v")?;
+        let rest = tag.strip_prefix(prefix)?;
         let numbers: Vec<u64> = rest
             .split('.')
             .map(str::parse)
@@ -99,10 +115,14 @@ mod tests {
 
     #[test]
     fn the_highest_version_is_the_newest() {
-        let tags = "pomona-ransac-v0.9.0\npomona-ransac-v0.10.1\nv7.0.0\npomona-fit-v3.0.0\n\
+        let tags = "pomona-ransac-v0.9.0\npomona-ransac-v0.10.1\nv7.0.0\nv12.1.0\nv13.0\npomona-fit-v3.0.0\n\
             pomona-ransac-v1.0.0-rc.1\npomona-ransac-vnext\n";
-        assert_eq!(newest(tags).as_deref(), Some("pomona-ransac-v0.10.1"));
-        assert_eq!(newest("v1.0.0\n"), None);
-        assert_eq!(newest(""), None);
+        assert_eq!(
+            newest(ENGINE_TAG, tags).as_deref(),
+            Some("pomona-ransac-v0.10.1")
+        );
+        assert_eq!(newest(TAG, tags).as_deref(), Some("v12.1.0"));
+        assert_eq!(newest(ENGINE_TAG, "v1.0.0\n"), None);
+        assert_eq!(newest(TAG, ""), None);
     }
 }

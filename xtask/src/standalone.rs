@@ -14,14 +14,6 @@ use std::{
 
 const ENGINE: &str = "pomona-ransac";
 
-/// The profile of the workspace, which the copy has not.
-const PROFILE: [&str; 4] = [
-    "profile.dev.opt-level=1",
-    "profile.dev.debug=\"line-tables-only\"",
-    "profile.dev.package.\"*\".opt-level=1",
-    "profile.dev.package.\"*\".debug=false",
-];
-
 /// How thoroughly.
 #[derive(clap::Args, Default)]
 pub(crate) struct Args {
@@ -43,6 +35,8 @@ pub(crate) fn run(args: &Args) -> Result<()> {
     fs::copy(&lock, place.0.join("Cargo.lock"))
         .with_context(|| format!("cannot copy {}", lock.display()))?;
 
+    // The profile of the workspace, which the copy has not.
+    let profile = workspace.profile_file()?;
     let mut commands = vec!["check --all-targets --all-features"];
     if args.test {
         commands.extend(["test --all-features", "bench --all-features -- --test"]);
@@ -52,10 +46,9 @@ pub(crate) fn run(args: &Args) -> Result<()> {
         let mut command = cargo();
         command
             .current_dir(&place.0)
-            .env("CARGO_TARGET_DIR", &workspace.target_directory);
-        for setting in PROFILE {
-            command.args(["--config", setting]);
-        }
+            .env("CARGO_TARGET_DIR", &workspace.target_directory)
+            .arg("--config")
+            .arg(&profile);
         let status = command
             .args(arguments.split(' '))
             .status()

@@ -8,6 +8,7 @@ mod front_pages;
 mod layers;
 mod lengths;
 mod names;
+mod published;
 mod standalone;
 mod words;
 
@@ -41,6 +42,7 @@ fn findings() -> Result<Vec<Finding>> {
     findings.extend(front_pages::check(&workspace, &sources));
     findings.extend(lengths::check(&sources));
     findings.extend(names::check(&sources));
+    findings.extend(published::check(&workspace)?);
     findings.extend(standalone::check(&workspace)?);
     findings.extend(words::check(&sources));
     Ok(findings)

@@ -4,10 +4,12 @@ use anyhow::{Context, Result, ensure};
 use serde::Deserialize;
 use std::{
     collections::BTreeMap,
-    env,
+    env, fs,
     path::{Path, PathBuf},
     process::Command,
 };
+
+const INCREMENTAL: &str = "CARGO_INCREMENTAL";
 
 /// The workspace's packages; no others are listed.
 #[derive(Deserialize)]
@@ -24,7 +26,20 @@ pub(crate) struct Package {
     pub manifest_path: PathBuf,
     pub dependencies: Vec<Dependency>,
     pub targets: Vec<Target>,
+    #[serde(default)]
+    pub rust_version: Option<String>,
+    #[serde(default)]
+    pub description: Option<String>,
+    #[serde(default)]
+    pub keywords: Vec<String>,
+    #[serde(default)]
+    pub categories: Vec<String>,
+    #[serde(default)]
+    pub readme: Option<PathBuf>,
     pub features: BTreeMap<String, Vec<String>>,
+    /// Where it may be published: `None` anywhere, an empty list nowhere.
+    #[serde(default)]
+    pub publish: Option<Vec<String>>,
 }
 
 #[derive(Deserialize)]
@@ -34,6 +49,10 @@ pub(crate) struct Dependency {
     /// `None` for a normal dependency, else `dev` or `build`.
     pub kind: Option<String>,
     pub optional: bool,
+    #[serde(default)]
+    pub uses_default_features: bool,
+    #[serde(default)]
+    pub features: Vec<String>,
 }
 
 #[derive(Deserialize)]
@@ -61,6 +80,19 @@ impl Workspace {
         serde_json::from_slice(&output.stdout).context("cargo metadata printed something else")
     }
 
+    /// Writes the workspace's profiles to a file that `cargo --config` reads where no workspace is.
+    pub(crate) fn profile_file(&self) -> Result<PathBuf> {
+        let manifest = self.root.join("Cargo.toml");
+        let text = fs::read_to_string(&manifest).with_context(|| manifest.display().to_string())?;
+        let mut table: toml::Table = text.parse()?;
+        table.retain(|key, _| key == "profile");
+        let path = self.target_directory.join("profiles.toml");
+        fs::create_dir_all(&self.target_directory)
+            .and_then(|()| fs::write(&path, table.to_string()))
+            .with_context(|| format!("cannot write {}", path.display()))?;
+        Ok(path)
+    }
+
     pub(crate) fn package(&self, name: &str) -> Option<&Package> {
         self.packages.iter().find(|package| package.name == name)
     }
@@ -74,6 +106,19 @@ impl Workspace {
 impl Package {
     pub(crate) fn folder(&self) -> &Path {
         self.manifest_path.parent().unwrap_or(&self.manifest_path)
+    }
+
+    /// Its features but `default`.
+    pub(crate) fn own_features(&self) -> impl Iterator<Item = &str> {
+        let names = self.features.keys().map(String::as_str);
+        names.filter(|name| *name != "default")
+    }
+
+    /// May it be published?
+    pub(crate) fn is_public(&self) -> bool {
+        self.publish
+            .as_ref()
+            .is_none_or(|places| !places.is_empty())
     }
 
     /// The root source file of the first target of this kind (`lib`, `bin`).
@@ -107,9 +152,15 @@ impl Dependency {
 }
 
 /// The cargo that runs us, in the workspace's root.
+///
+/// What is compiled for a check is not edited between two builds, and is compiled faster as a whole; whoever wants it
+/// otherwise sets the variable.
 pub(crate) fn cargo() -> Command {
     let mut command = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     command.current_dir(root());
+    if env::var_os(INCREMENTAL).is_none() {
+        command.env(INCREMENTAL, "0");
+    }
     command
 }
 

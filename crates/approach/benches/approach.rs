@@ -8,6 +8,7 @@ use criterion::{Criterion, criterion_group, criterion_main};
 use nalgebra::{Point3, Vector3};
 use pomona_approach::{ApproachConfig, ObstacleMap, Planner, StartPose, Target, pick_order};
 use pomona_geometry::{Capsule, Segment, Sphere};
+use pomona_statistics::median;
 use pomona_transforms::Direction;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -105,9 +106,7 @@ fn least_times(
             *least = begin.elapsed().min(*least);
         }
     }
-    let mut milliseconds: Vec<f64> = least.iter().map(|t| t.as_secs_f64() * 1e3).collect();
-    milliseconds.sort_by(f64::total_cmp);
-    milliseconds
+    least.iter().map(|t| t.as_secs_f64() * 1e3).collect()
 }
 
 /// The least time of building a scene, in milliseconds.
@@ -139,12 +138,13 @@ fn approach(criterion: &mut Criterion) {
             orchard.cloud.len(),
             scene.rest().len()
         );
-        let times = least_times(&planner, &scene, &orchard.targets, &start);
+        let mut times = least_times(&planner, &scene, &orchard.targets, &start);
+        let largest = times.iter().copied().fold(0.0, f64::max);
         println!(
             "apple {name} mean {:.3} ms, median {:.3}, largest {:.3}; scene {:.2} ms",
             times.iter().sum::<f64>() / times.len() as f64,
-            0.5 * (times[(times.len() - 1) / 2] + times[times.len() / 2]),
-            times[times.len() - 1],
+            median(&mut times).unwrap_or(f64::NAN),
+            largest,
             least_scene_time(&orchard, &planner),
         );
         // Divide by twelve for the time of an apple.

@@ -17,11 +17,11 @@ use std::path::{Path, PathBuf};
 const EXAMPLES: &str = "\
 Examples:
   pomona inspect frames/a                    size, camera, depth and boxes of a frame
-  pomona inspect cloud.pcd cloud.ply         points, bounds, colours
+  pomona inspect cloud.pcd cloud.ply         points, bounds and colours of clouds
   pomona inspect out/picks.json --json       as JSON, in metres
 
-Known are frames' folders, clouds (PCD, PLY, XYZ), images, cameras, box files, transforms, settings, \
-picks.json and truth.json.";
+Frames, clouds (PCD, PLY, XYZ), images, cameras, box files, transforms, settings, picks.json and truth.json \
+are recognised.";
 
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]

@@ -2,7 +2,7 @@
 //!
 //! `network_bench ROUNDS NAME=MODEL... [--frame IMAGE]`. Each round runs every network in every runtime once, on
 //! one thread, so that what else the machine does meets all alike. The network `yolov3-tiny` of noise is always
-//! among them. A frame is looked at as a whole detector does, tiled on two threads, by the first model that is there.
+//! among them. A frame is run as a detector runs it, tiled on two threads, with the first model given.
 
 #[path = "../../network/tests/network/onnx.rs"]
 #[expect(

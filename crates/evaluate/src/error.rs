@@ -6,7 +6,10 @@ use thiserror::Error;
 #[non_exhaustive]
 pub enum EvaluateError {
     /// It is neither a suite nor a folder.
-    #[error("`{name}` is neither a folder nor a suite; the suites are {}, each also with other scenes as in orchard@1000", .suites.join(", "))]
+    #[error(
+        "`{name}` is neither a folder nor a suite; the suites are {}, each also with other scenes as in orchard@1000",
+        .suites.join(", ")
+    )]
     UnknownSubject {
         /// What was asked for.
         name: String,

@@ -7,6 +7,7 @@ pub const SCHEMA: &str = "pomona.evaluation/1";
 
 /// What `evaluation.json` holds. Metres, radians, and milliseconds where the name says so.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Evaluation {
     /// [`SCHEMA`].
     pub schema: String,

@@ -1,5 +1,6 @@
 //! What a model's file is: read, checked, and summarised, before an inference backend sees it.
 
+pub(crate) mod fields;
 mod file_kind;
 pub(crate) mod protobuf;
 mod summary;

@@ -50,7 +50,8 @@ impl Tiling {
     ///
     /// # Errors
     ///
-    /// [`NetworkError::TileGrid`] for a grid without tiles, or with more than [`TilingChoice::LARGEST_GRID`] columns or rows.
+    /// [`NetworkError::TileGrid`] for a grid without tiles, or with more columns or rows than
+    /// [`TilingChoice::LARGEST_GRID`].
     pub fn new(options: &TilingOptions, input: [usize; 2]) -> Result<Self, NetworkError> {
         let sides = 1..=TilingChoice::LARGEST_GRID;
         if let TilingChoice::Grid { columns, rows } = options.choice

@@ -72,7 +72,8 @@ pub fn page(title: &str, body: &str) -> String {
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
-         <title>{title}</title>\n<style>{STYLE}</style></head>\n<body><main>\n<h1>{title}</h1>\n{body}</main></body></html>\n",
+         <title>{title}</title>\n<style>{STYLE}</style></head>\n\
+         <body><main>\n<h1>{title}</h1>\n{body}</main></body></html>\n",
         title = escape(title)
     )
 }

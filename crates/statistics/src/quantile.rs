@@ -24,7 +24,7 @@ impl TotalOrder for u16 {
     }
 }
 
-/// The `p`-quantile, linear between neighbours: the value at the place `(n − 1) p` of the sorted values, counted from 0.
+/// The `p`-quantile, linear between neighbours: the value at the place `(n − 1) p` of the sorted values, from 0.
 ///
 /// Type 7 of Hyndman and Fan 1996. Reorders `values`; linear time. `None` for no values and for a `p` outside 0..=1.
 pub fn quantile(values: &mut [f64], p: f64) -> Option<f64> {
@@ -71,8 +71,8 @@ pub fn nearest_quantile<T: TotalOrder>(values: &mut [T], p: f64) -> Option<T> {
     Some(nth(values, place.round() as usize))
 }
 
-/// The least value that more than a share `p` of the values do not exceed, the largest for `p = 1`: the place `⌊n p⌋` of
-/// the sorted values.
+/// The least value that more than a share `p` of the values do not exceed, the largest for `p = 1`: the place
+/// `⌊n p⌋` of the sorted values.
 ///
 /// Type 1 of Hyndman and Fan 1996 but for `n p` a whole number, where that takes the value before it. Reorders
 /// `values`; linear time. `None` for no values and for a `p` outside 0..=1.
@@ -192,7 +192,9 @@ mod tests {
         }
 
         #[test]
-        fn more_than_a_share_does_not_exceed_the_inverse(values in prop::collection::vec(0..9_u16, 1..40), p in 0.0..0.999_f64) {
+        fn more_than_a_share_does_not_exceed_the_inverse(
+            values in prop::collection::vec(0..9_u16, 1..40), p in 0.0..0.999_f64,
+        ) {
             let found = inverse_cdf(&mut values.clone(), p).unwrap();
             let share = |bound: u16| values.iter().filter(|&&v| v <= bound).count() as f64 / values.len() as f64;
             prop_assert!(share(found) > p - 1e-12);
@@ -200,7 +202,9 @@ mod tests {
         }
 
         #[test]
-        fn quantiles_ascend_with_the_share(values in prop::collection::vec(-1e3..1e3_f64, 1..40), p in 0.0..=1.0_f64, q in 0.0..=1.0_f64) {
+        fn quantiles_ascend_with_the_share(
+            values in prop::collection::vec(-1e3..1e3_f64, 1..40), p in 0.0..=1.0_f64, q in 0.0..=1.0_f64,
+        ) {
             let (low, high) = (p.min(q), p.max(q));
             let at = |p| quantile(&mut values.clone(), p).unwrap();
             prop_assert!(at(low) <= at(high));

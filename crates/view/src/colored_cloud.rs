@@ -1,3 +1,4 @@
+use crate::basis::perpendiculars;
 use crate::palette;
 use nalgebra::{Point3, Vector3};
 use pomona_cloud::PointCloud;
@@ -17,6 +18,12 @@ pub struct CloudMark<'a> {
 
 /// Distance between neighbouring rings of points on an arrow, as a fraction of its length.
 const RING_SPACING: f64 = 1.0 / 120.0;
+/// Length of an arrow's shaft, radius of the shaft and of the head's base, and radius of the balls at its ends, as
+/// fractions of its length.
+const SHAFT: f64 = 0.75;
+const SHAFT_RADIUS: f64 = 0.02;
+const HEAD_RADIUS: f64 = 0.09;
+const BALL_RADIUS: f64 = 0.04;
 /// Points on a ring around an arrow.
 const RING_POINTS: u32 = 12;
 /// Points on a ball.
@@ -104,20 +111,14 @@ impl Painted {
             return;
         }
         let axis = direction / length;
-        let side = if axis.x.abs() < 0.9 {
-            Vector3::x()
-        } else {
-            Vector3::y()
-        };
-        let right = axis.cross(&side).normalize();
-        let down = axis.cross(&right);
+        let (right, down) = perpendiculars(&axis);
         let rings = (1.0 / RING_SPACING) as u32;
         for ring in 0..=rings {
             let fraction = f64::from(ring) / f64::from(rings);
-            let radius = if fraction < 0.75 {
-                0.02
+            let radius = if fraction < SHAFT {
+                SHAFT_RADIUS
             } else {
-                0.09 * (1.0 - fraction) / 0.25
+                HEAD_RADIUS * (1.0 - fraction) / (1.0 - SHAFT)
             };
             for i in 0..RING_POINTS {
                 let (sine, cosine) = (TAU * f64::from(i) / f64::from(RING_POINTS)).sin_cos();
@@ -126,7 +127,7 @@ impl Painted {
             }
         }
         for center in [start, end] {
-            self.ball(center, 0.04 * length);
+            self.ball(center, BALL_RADIUS * length);
         }
     }
 

@@ -58,6 +58,7 @@
 //! doi 10.3390/agriculture12081170 (the colours of its figures).
 
 mod arrow;
+mod basis;
 mod box_picture;
 mod boxes;
 mod canvas;

@@ -1,13 +1,16 @@
-use nalgebra::{Point2, Point3, Vector3};
+use crate::basis::perpendiculars;
+use crate::canvas::Point;
+use nalgebra::{Point2, Point3};
 use pomona_cloud::Camera;
 use pomona_geometry::{Sphere, angle_between};
 use std::f64::consts::{PI, TAU};
 
-use crate::canvas::Point;
-
 /// Angle to the line of sight under which a short arrow counts as pointing
 /// along it, radians.
 const ALONG_SIGHT: f64 = PI / 4.0;
+
+/// Points of the outline of a sphere.
+const OUTLINE_POINTS: u32 = 72;
 
 /// An arrow as it appears in the picture, canvas coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -89,19 +92,13 @@ pub(crate) fn sphere_outline(camera: &Camera, sphere: &Sphere) -> Option<Vec<Poi
         return None;
     }
     let axis = center / distance;
-    let side = if axis.x.abs() < 0.9 {
-        Vector3::x()
-    } else {
-        Vector3::y()
-    };
-    let right = axis.cross(&side).normalize();
-    let down = axis.cross(&right);
+    let (right, down) = perpendiculars(&axis);
     let radius = sphere.radius * cosine_squared.sqrt();
     let at = |i: u32| {
-        let (sine, cosine) = (TAU * f64::from(i) / 72.0).sin_cos();
+        let (sine, cosine) = (TAU * f64::from(i) / f64::from(OUTLINE_POINTS)).sin_cos();
         Point3::from(center * cosine_squared + (right * cosine + down * sine) * radius)
     };
-    (0..72)
+    (0..OUTLINE_POINTS)
         .map(|i| project(camera, &at(i)).map(canvas_point))
         .collect()
 }

@@ -218,6 +218,8 @@ mod tests {
             rename: None,
             kind: kind.map(Into::into),
             optional: false,
+            uses_default_features: true,
+            features: Vec::new(),
         });
         Package {
             name: name.into(),
@@ -225,6 +227,12 @@ mod tests {
             dependencies: dependencies.collect(),
             targets: Vec::new(),
             features: BTreeMap::new(),
+            publish: None,
+            rust_version: None,
+            description: None,
+            keywords: Vec::new(),
+            categories: Vec::new(),
+            readme: None,
         }
     }
 

@@ -2,12 +2,12 @@
 
 use super::{dependencies::Manifest, finding::Finding, layers::ENGINE};
 use crate::workspace::Workspace;
-use anyhow::{Context, Result};
-use std::{fs, path::Path};
+use anyhow::Result;
+use std::path::Path;
 use toml::{Table, Value};
 
-/// Files that the folder has of its own, the same as those at the root.
-const LICENSES: [&str; 2] = ["LICENSE-APACHE", "LICENSE-MIT"];
+/// What the engine's folder has of its own under the same name.
+const OWN: [&str; 1] = ["readme"];
 
 /// Keys that belong to one crate and not to the table of versions.
 const OF_THE_CRATE: [&str; 1] = ["optional"];
@@ -18,23 +18,11 @@ pub(super) fn check(workspace: &Workspace) -> Result<Vec<Finding>> {
     };
     let root = Manifest::read(&workspace.root.join("Cargo.toml"))?;
     let manifest = Manifest::read(&engine.manifest_path)?;
-    let mut findings = disagreements(
+    let findings = disagreements(
         workspace.relative(&engine.manifest_path),
         &manifest,
         &root.table,
     );
-    for name in LICENSES {
-        let path = engine.folder().join(name);
-        let original = fs::read(workspace.root.join(name))
-            .with_context(|| format!("cannot read {name} at the root"))?;
-        if fs::read(&path).ok() != Some(original) {
-            findings.push(Finding::new(
-                workspace.relative(&path).display().to_string(),
-                "is not the licence at the root",
-                format!("copy {name} there"),
-            ));
-        }
-    }
     Ok(findings)
 }
 
@@ -59,7 +47,7 @@ fn disagreements(path: &Path, manifest: &Manifest, root: &Table) -> Vec<Finding>
     if let Some(Value::Table(package)) = of_workspace("package") {
         for (key, theirs) in &package {
             let ours = manifest.table.get("package").and_then(|p| p.get(key));
-            if ours != Some(theirs) {
+            if ours != Some(theirs) && !OWN.contains(&key.as_str()) {
                 disagree(key, Some(theirs));
             }
         }

@@ -23,8 +23,8 @@ pub(super) fn tables(evaluation: &DetectionEvaluation, terminal: Terminal) -> St
         "mean IoU",
     ];
     let title = format!(
-        "Detection in {}: {} images, {} labels ({} ignored); AP by all points, beside it by COCO's 101; recall, precision, \
-         false positives (FP) and IoU at score {}",
+        "Detection in {}: {} images, {} labels ({} ignored); AP by all points, beside it by COCO's 101; recall, \
+         precision, false positives (FP) and IoU at score {}",
         data.name, data.images, data.labels, data.ignored_labels, evaluation.threshold
     );
     let rows: Vec<Vec<String>> = evaluation.results.iter().map(result).collect();

@@ -164,7 +164,8 @@ fn consistency(alignment: &Alignment) -> String {
     );
     match &alignment.distance {
         Some(distance) => format!(
-            "{names}: {} shared names, {} aligned within 30 mm; centres then {} mm apart on average, median {}, largest {}",
+            "{names}: {} shared names, {} aligned within 30 mm; centres then {} mm apart on average, median {}, \
+             largest {}",
             alignment.shared,
             alignment.fitted,
             mm(distance.mean),

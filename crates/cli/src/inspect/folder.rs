@@ -6,6 +6,7 @@ use crate::pick::PICKS;
 use crate::summary::plural;
 use pomona_cloud::{DepthPoints, Frame, read_tum};
 use pomona_scenes::{TRUTH_FILE, Truth};
+use pomona_statistics::lower_median;
 use std::path::Path;
 
 pub(super) fn facts(path: &Path) -> anyhow::Result<Facts> {
@@ -32,7 +33,7 @@ fn frame(path: &Path) -> anyhow::Result<Facts> {
         None => facts.add(
             "boxes",
             serde_json::Value::Null,
-            "none; `pomona pick` needs --boxes FILE",
+            "none; `pomona pick` detects them",
         ),
         Some(boxes) => {
             let mut points = DepthPoints::new();
@@ -65,10 +66,13 @@ fn add_depth_range(facts: &mut Facts, frame: &Frame) {
         .copied()
         .filter(|&r| r != 0)
         .collect();
-    readings.sort_unstable();
-    let z = |at: usize| f64::from(readings[at]) * frame.camera.depth_scale;
-    if let Some(last) = readings.len().checked_sub(1) {
-        let (low, median, high) = (z(0), z(last / 2), z(last));
+    let (least, most) = (
+        readings.iter().copied().min(),
+        readings.iter().copied().max(),
+    );
+    if let (Some(low), Some(median), Some(high)) = (least, lower_median(&mut readings), most) {
+        let z = |reading: u16| f64::from(reading) * frame.camera.depth_scale;
+        let (low, median, high) = (z(low), z(median), z(high));
         let text = format!(
             "{:.0} to {:.0} mm, median {:.0} mm",
             low * 1000.0,

@@ -8,10 +8,10 @@ use pomona_network::{Malformed, Port};
 
 /// The family of a network with these inputs and outputs.
 ///
-/// `input` is its width and height in pixels, where they are known. Two inputs and three outputs are the zoo's
-/// `YOLOv3`. An output with three axes is told by its number of rows: as many as there are cells on the grids along its
-/// last axis is `YOLOv8`, along its middle axis YOLOX, three times as many `YOLOv5`. Only outputs of four or five axes are
-/// `YOLOv3`'s grids.
+/// `input` is its width and height in pixels, where they are known. Two inputs and three outputs are the ONNX model
+/// zoo's `YOLOv3`. An output with three axes is recognised by its number of rows: with as many as the grids have cells
+/// along its last axis it is `YOLOv8`, along its middle axis YOLOX, and with three times as many `YOLOv5`. Outputs of
+/// four or five axes alone are `YOLOv3`'s grids.
 pub(crate) fn recognise(
     inputs: &[Port],
     outputs: &[Port],

@@ -110,7 +110,8 @@ fn print(result: &DepthCheckResult) {
     }
     let m = &result.merging;
     println!(
-        "  of {} split boxes {:.1} % joined rightly, {:.1} % left with one; of {} whole ones {} joined and {} marked wrongly",
+        "  of {} split boxes {:.1} % joined rightly, {:.1} % left with one; of {} whole ones {} joined and {} marked \
+         wrongly",
         m.split,
         percent(m.rightly_merged, m.split),
         percent(m.left_with_one, m.split),

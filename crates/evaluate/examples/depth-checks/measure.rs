@@ -120,8 +120,8 @@ fn measure(
     Ok(of_frame(&scene.frame, &scene.truth.apples, config, seed)?)
 }
 
-/// The same on a frame without truth: its boxes are taken for those of its apples, at the depth in their middle. What is
-/// not boxed counts as no apple, whatever it is.
+/// The same on a frame without truth: its boxes are taken for those of its apples, at the depth in their middle.
+/// What has no box counts as no apple.
 ///
 /// # Errors
 ///

@@ -136,8 +136,8 @@ fn consistency(alignment: &Alignment) -> String {
         |t| mm(nalgebra::Vector3::from(t).norm()),
     );
     paragraph(&format!(
-        "{names}: {} apples of one name have a centre in both; one rigid motion ({way} mm, {:.1}°) brings {} of them to \
-         within 30 mm. There the two centres lie {} mm apart on average, median {}, largest {}. An error that both \
+        "{names}: {} apples of one name have a centre in both; one rigid motion ({way} mm, {:.1}°) brings {} of them \
+         to within 30 mm. Their two centres are then {} mm apart on average, median {}, largest {}. An error that both \
          sights share does not show.",
         alignment.shared,
         alignment.rotation_angle.unwrap_or_default().to_degrees(),

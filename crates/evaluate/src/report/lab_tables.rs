@@ -48,7 +48,7 @@ pub(super) fn section(result: &SuiteResult) -> Result<String, PlotError> {
          not the 5.23° printed beside it.",
         mm(LAB_RADIUS)
     ));
-    let caption = "Angle error of each orientation: ours red, from the least to the largest draw with the mean; the paper's blue.";
+    let caption = "Angle error of each orientation: ours red, mean and range over the noise draws; the paper's blue.";
     text += &figures(1, &[(draw(&result.lab)?, caption.to_owned())]);
     Ok(text)
 }

@@ -59,8 +59,8 @@ pub(super) fn overview(evaluation: &Evaluation) -> String {
         + &paragraph(
             "A confidence is the probability of an error of at most 20°, which is called right here; doubted is a \
              confidence under 0.5. ECE is the expected calibration error over ten bins of equal width, beside it over \
-             ten of equal count. The standard deviation of a direction is that along each of two axes, over right answers: \
-             calibrated are 39.3 % within one, 86.5 % within two, and a root mean square of 1.41.",
+             ten of equal count. The standard deviation of a direction is that along each of two axes, over right \
+             answers: calibrated are 39.3 % within one, 86.5 % within two, and a root mean square of 1.41.",
         )
 }
 

@@ -30,8 +30,8 @@ pub(super) fn section(result: &SuiteResult, rows: &[&AppleRow]) -> Result<String
     );
     text += &summary(result, repeats);
     text += &paragraph(
-        "The expected direction is the vector from the mean O to the mean C of these very answers: the paper's measure. \
-         It does not see an error that all repeats share; the last column does.",
+        "The expected direction is the vector from the mean O to the mean C of these very answers: the paper's \
+         measure. It does not see an error that all repeats share; the last column does.",
     );
     let projections = [
         (

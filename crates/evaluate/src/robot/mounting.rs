@@ -91,7 +91,8 @@ impl MountingError {
 
 impl Mounting {
     /// A camera that looks ahead from behind the base, and its eye-to-hand calibration by `pomona-calibrate` from
-    /// noisy samples: the flange shows a target 0.8 m ahead of the camera, moved within ±0.25 m and turned by up to 60°.
+    /// noisy samples: the flange shows a target 0.8 m ahead of the camera, moved within ±0.25 m and turned by up to
+    /// 60°.
     /// Both are drawn from `seed` alone.
     pub(crate) fn calibrated(seed: u64, noise: &CalibrationNoise) -> Result<Self, MountingError> {
         noise.check()?;

@@ -9,6 +9,7 @@ const BOUND_50_DEG: f64 = 50.0 * PI / 180.0;
 
 /// Angle errors and the shares that the paper states.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct AngleErrors {
     /// The errors.
     pub error: Summary,

@@ -7,13 +7,14 @@ use std::collections::BTreeMap;
 
 /// One method over one suite in the base's frame: error budget, and whether what is stated holds.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct BaseResult {
     /// Answered apples, to which a gripper is sent.
     pub apples: usize,
     /// Error of the tool's place, its parts first and `total` last, over all answered apples; metres.
     pub position: Vec<BudgetTerm>,
-    /// Error of the tool's direction, likewise, over the answers that are right in the camera's frame (at most 20° off);
-    /// radians. A wrong branch is no error of measurement.
+    /// Error of the tool's direction, likewise, over the answers that are right in the camera's frame (at most 20°
+    /// off); radians. A wrong branch is no measurement error.
     pub direction: Vec<BudgetTerm>,
     /// Error of the tool's direction over all answers, right and wrong; radians.
     pub direction_of_all: Option<Summary>,
@@ -27,6 +28,7 @@ pub struct BaseResult {
 
 /// A part of an error budget, over apples.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct BudgetTerm {
     /// Name of the part.
     pub name: String,
@@ -40,6 +42,7 @@ pub struct BudgetTerm {
 
 /// Errors against the covariances stated for them.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Coverage {
     /// Degrees of freedom: the mean of the normalised squared errors, if calibrated.
     pub freedom: usize,
@@ -53,6 +56,7 @@ pub struct Coverage {
 
 /// What the robot's plans make of the answers.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Planned {
     /// Answers with a way to the apple.
     pub with_way: Proportion,

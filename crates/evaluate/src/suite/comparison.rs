@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 /// Two methods on the same apples, which takes the scenes' own difficulty out of the difference.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Comparison {
     /// Suite.
     pub suite: String,
@@ -11,7 +12,8 @@ pub struct Comparison {
     pub first: String,
     /// The other.
     pub second: String,
-    /// Angle error of the second less that of the first, over apples that both answered. Negative: the second is better.
+    /// Angle error of the second less that of the first, over apples that both answered; negative where the second is
+    /// better.
     pub angle_difference: Option<Summary>,
     /// Centre error of the second less that of the first, over apples where both have a sphere.
     pub center_difference: Option<Summary>,

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 /// Errors of one suite and method against one thing that makes an apple hard.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Grouping {
     /// What the apples are grouped by.
     pub by: Difficulty,
@@ -31,6 +32,7 @@ pub enum Difficulty {
 
 /// The apples whose difficulty lies in `from..to`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Group {
     /// Least value.
     pub from: f64,

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 /// One row of the paper's Tables 1–3 with ours beside it, over all noise draws of the orientation.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct LabRow {
     /// Name of the orientation, such as `x-90`.
     pub orientation: String,

@@ -17,6 +17,7 @@ const CURVE_POINTS: usize = 60;
 
 /// Confidences and standard deviations against the errors, over the answers that carry a confidence.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Reliability {
     /// Mean of the confidences.
     pub mean_confidence: f64,
@@ -43,6 +44,7 @@ pub struct Reliability {
 
 /// The answers whose confidence lies in `from..to`, 1 belonging to the last bin.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct ConfidenceBin {
     /// Least confidence.
     pub from: f64,
@@ -56,6 +58,7 @@ pub struct ConfidenceBin {
 
 /// What is left when answers of less confidence are refused.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct RiskPoint {
     /// Least confidence among those left.
     pub confidence: f64,
@@ -72,6 +75,7 @@ pub struct RiskPoint {
 /// That is the standard deviation along each of two axes across the direction, so that the ratio of calibrated
 /// answers has a Rayleigh distribution: 39.3 % within 1, 86.5 % within 2, median 1.18, root mean square √2.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct SdCalibration {
     /// Error over standard deviation, of the right answers: that of a wrong one is not meant to hold.
     pub ratio: Summary,

@@ -18,6 +18,7 @@ const SAME_DIRECTION: f64 = 1e-6;
 /// the mean foot of these very answers, so that a method that is wrong the same way each
 /// time repeats perfectly.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Repeatability {
     /// Answers.
     pub repeats: usize,

@@ -14,6 +14,7 @@ const HIT_RAD: f64 = std::f64::consts::PI / 18.0;
 
 /// One method over one suite; only target apples count.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct SuiteResult {
     /// Suite, or folder of frames.
     pub suite: String,
@@ -59,6 +60,7 @@ pub struct SuiteResult {
 
 /// Answers and refusals against what the camera could see.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Refusals {
     /// Of the apples asked for, the hits: a direction at most 10° off. A refusal is no hit.
     pub hits: Proportion,
@@ -78,6 +80,7 @@ pub struct Refusals {
 ///
 /// With several threads the stages of several apples share the cores.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Timing {
     /// Cutting the box out of the depth image.
     pub crop: MeanSd,

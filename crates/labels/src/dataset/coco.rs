@@ -46,13 +46,13 @@ fn is_named_so(path: &Path) -> bool {
 /// Whether a file holds boxes of images that it names.
 fn names_images(path: &Path) -> bool {
     #[derive(Deserialize)]
-    #[allow(dead_code, reason = "what counts is that it is there")]
+    #[expect(dead_code, reason = "what counts is that it is there")]
     struct Dataset {
         images: Vec<Image>,
         annotations: Vec<IgnoredAny>,
     }
     #[derive(Deserialize)]
-    #[allow(dead_code, reason = "what counts is that it is there")]
+    #[expect(dead_code, reason = "what counts is that it is there")]
     struct Image {
         file_name: String,
     }

@@ -94,8 +94,8 @@ impl LabelledDataset {
         }
     }
 
-    /// Marks the boxes whose name or class is `name` as difficult, so that they are ignored in matching; a `*` at its end
-    /// matches anything.
+    /// Marks the boxes whose name or class is `name` as difficult, so that they are ignored in matching; a `*` at its
+    /// end matches anything.
     ///
     /// Returns their number.
     pub fn ignore(&mut self, name: &str) -> usize {

@@ -75,7 +75,8 @@ pub(super) fn read(
                 return Err(LabelsError::malformed(
                     &path,
                     "no label file beside this image, though others have one",
-                    "add an empty one if nothing is to be found there, or keep images and labels in images/ and labels/",
+                    "add an empty one if nothing is to be found there, or keep images and labels in images/ and \
+                     labels/",
                 ));
             }
         };

@@ -16,7 +16,9 @@ const MOST_POINTS: usize = 400;
 /// use pomona_detect::Detection;
 /// use pomona_labels::{Curve, MatchedImage};
 ///
-/// let pixel_box = |x: f64| PixelBox { name: "1".into(), x_min: x, y_min: 0.0, x_max: x + 10.0, y_max: 10.0, score: 1.0 };
+/// let pixel_box = |x: f64| {
+///     PixelBox { name: "1".into(), x_min: x, y_min: 0.0, x_max: x + 10.0, y_max: 10.0, score: 1.0 }
+/// };
 /// let seen = |x: f64, score| Detection { x_min: x, y_min: 0.0, x_max: x + 10.0, y_max: 10.0, score, class: 0 };
 /// let labels = [LabelledBox::new(pixel_box(0.0)), LabelledBox::new(pixel_box(50.0))];
 ///
@@ -46,6 +48,7 @@ pub struct Curve {
 
 /// One point of a precision–recall curve.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct CurvePoint {
     /// Detections of at least this score count.
     pub score: f64,
@@ -57,6 +60,7 @@ pub struct CurvePoint {
 
 /// The best F1 of a curve: the harmonic mean of precision and recall.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct BestF1 {
     /// F1.
     pub f1: f64,

@@ -37,7 +37,8 @@ impl MatchedImage {
         self.labels.iter().filter(|label| label.counts()).count()
     }
 
-    /// Which labels a detection of at least this score finds at an intersection over union of 0.5, with the value of it.
+    /// For each label the intersection over union with the detection of at least this score that finds it, where that
+    /// is 0.5 or more.
     pub fn found(&self, threshold: f64) -> Vec<Option<f64>> {
         let mut found = vec![None; self.labels.len()];
         for (detection, of) in self.detections.iter().zip(&self.matches[0]) {

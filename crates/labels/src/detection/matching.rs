@@ -65,9 +65,9 @@ pub enum DetectionMatch {
 /// Matches the detections of one image with its labels, as COCO does; one result for each detection.
 ///
 /// Detections choose in order of descending score, equal scores in the order given. Each takes the free label
-/// with the largest intersection over union, if that is at least `least_iou`; among equals, the last one. A detection is
-/// matched with a difficult label or a crowd only where it finds no other label; a crowd may be matched more than
-/// once. Scores that are not finite come last.
+/// with the largest intersection over union, if that is at least `least_iou`; among equals, the last one. A
+/// detection is matched with a difficult label or a crowd only where it finds no other label; a crowd may be matched
+/// more than once. Scores that are not finite come last.
 ///
 /// Lin et al. 2014, "Microsoft COCO: Common Objects in Context", and the evaluation that comes with it.
 pub fn match_detections(

@@ -112,8 +112,8 @@ fn overview(evaluation: &DetectionEvaluation) -> String {
         &rows,
     );
     text + &paragraph(
-        "All points: the area under the whole curve (PASCAL VOC from 2010 on), the main figure. 101 points: COCO's rule. \
-         False positives: detections that match no label; where labels are missing, some of them are apples.",
+        "All points: the area under the whole curve (PASCAL VOC from 2010 on), the main figure. 101 points: COCO's \
+         rule. False positives: detections that match no label; where labels are missing, some of them are apples.",
     )
 }
 

@@ -62,8 +62,8 @@ pub struct DetectionResult {
     pub detector: Option<DetectorReport>,
     /// Detections of any score.
     pub detections: usize,
-    /// Average precision at an intersection over union of 0.5, all points: the main figure. Absent, as all that recall is needed for,
-    /// where there is no label to find.
+    /// Average precision at an intersection over union of 0.5, all points: the main figure. Absent, like every figure
+    /// that needs recall, where there is no label to find.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub ap50: Option<Estimate>,
     /// Mean of the average precisions at intersections over union of 0.50 to 0.95, all points.

@@ -26,7 +26,7 @@ const PREFIXES: [(&[u8], &str, &str); 6] = [
 
 const SAVED_PAGE: &str = "a web page, perhaps saved in place of a download";
 
-/// How much of a file is looked at, bytes.
+/// How much of a file is examined, bytes.
 const HEAD: usize = 512;
 
 /// The fault of a file that is of another kind, by its first bytes; `None` for one that may be an ONNX model.

@@ -1,3 +1,4 @@
+use super::fields;
 use super::protobuf::{Damage, Field, Fields};
 use crate::tensor::{Element, Port, element_count};
 use pomona_files::Malformed;
@@ -5,7 +6,7 @@ use std::collections::{BTreeSet, HashSet};
 
 /// What an ONNX file says about itself: its ports, and where else its weights are.
 ///
-/// Numbers of the fields: `onnx.proto3`, ONNX 1.17. Weights and nodes are left to the runtimes.
+/// Weights and nodes are left to the inference backends.
 #[derive(Debug, Default, PartialEq)]
 pub(super) struct Summary {
     pub(super) inputs: Vec<Port>,
@@ -17,6 +18,9 @@ pub(super) struct Summary {
     /// Files with weights, by their paths relative to the model's folder.
     pub(super) external: BTreeSet<String>,
 }
+
+/// Versions of ONNX's intermediate representation that are taken for one: there have been 12 so far.
+const IR_VERSIONS: std::ops::Range<i64> = 1..1000;
 
 const AGAIN: &str = "export or download it again";
 
@@ -46,15 +50,17 @@ struct Reading {
 impl Reading {
     fn model_field(&mut self, field: &Field) -> Result<(), Damage> {
         match field.number {
-            1 => self.has_version = (1..1000).contains(&field.number_value()?),
-            7 => {
+            fields::MODEL_IR_VERSION => {
+                self.has_version = IR_VERSIONS.contains(&field.number_value()?);
+            }
+            fields::MODEL_GRAPH => {
                 self.has_graph = true;
                 for field in field.message()? {
                     self.graph_field(&field?)?;
                 }
             }
-            8 => self.opset(field)?,
-            14 => self.summary.metadata.push(entry(field)?),
+            fields::MODEL_OPSET_IMPORT => self.opset(field)?,
+            fields::MODEL_METADATA_PROPS => self.summary.metadata.push(entry(field)?),
             _ => (),
         }
         Ok(())
@@ -65,8 +71,8 @@ impl Reading {
         for field in field.message()? {
             let field = field?;
             match field.number {
-                1 => domain = field.text()?,
-                2 => version = Some(field.number_value()?),
+                fields::OPSET_DOMAIN => domain = field.text()?,
+                fields::OPSET_VERSION => version = Some(field.number_value()?),
                 _ => (),
             }
         }
@@ -78,9 +84,9 @@ impl Reading {
 
     fn graph_field(&mut self, field: &Field) -> Result<(), Damage> {
         match field.number {
-            5 => self.weights(field)?,
-            11 => self.summary.inputs.push(port(field)?),
-            12 => self.summary.outputs.push(port(field)?),
+            fields::GRAPH_INITIALIZER => self.weights(field)?,
+            fields::GRAPH_INPUT => self.summary.inputs.push(port(field)?),
+            fields::GRAPH_OUTPUT => self.summary.outputs.push(port(field)?),
             _ => (),
         }
         Ok(())
@@ -92,11 +98,11 @@ impl Reading {
         for field in field.message()? {
             let field = field?;
             match field.number {
-                1 => shape.extend(field.numbers()?),
-                2 => element = field.number_value()?,
-                8 => name = field.text()?,
-                9 => bytes = Some(field.bytes()?.len()),
-                13 => elsewhere.push(entry(&field)?),
+                fields::TENSOR_DIMS => shape.extend(field.numbers()?),
+                fields::TENSOR_DATA_TYPE => element = field.number_value()?,
+                fields::TENSOR_NAME => name = field.text()?,
+                fields::TENSOR_RAW_DATA => bytes = Some(field.bytes()?.len()),
+                fields::TENSOR_EXTERNAL_DATA => elsewhere.push(entry(&field)?),
                 _ => (),
             }
         }
@@ -176,8 +182,8 @@ fn entry(field: &Field) -> Result<(String, String), Damage> {
     for field in field.message()? {
         let field = field?;
         match field.number {
-            1 => key = field.text()?,
-            2 => value = field.text()?,
+            fields::ENTRY_KEY => key = field.text()?,
+            fields::ENTRY_VALUE => value = field.text()?,
             _ => (),
         }
     }
@@ -193,8 +199,8 @@ fn port(field: &Field) -> Result<Port, Damage> {
     for field in field.message()? {
         let field = field?;
         match field.number {
-            1 => port.name = field.text()?,
-            2 => port_type(&field, &mut port)?,
+            fields::VALUE_NAME => port.name = field.text()?,
+            fields::VALUE_TYPE => port_type(&field, &mut port)?,
             _ => (),
         }
     }
@@ -205,12 +211,12 @@ fn port_type(field: &Field, port: &mut Port) -> Result<(), Damage> {
     for field in field.message()? {
         let field = field?;
         // Sequences and maps have other numbers: they stay `Other`.
-        if field.number == 1 {
+        if field.number == fields::TYPE_TENSOR {
             for field in field.message()? {
                 let field = field?;
                 match field.number {
-                    1 => port.element = element(field.number_value()?),
-                    2 => port.shape = shape(&field)?,
+                    fields::TENSOR_TYPE_ELEMENT => port.element = element(field.number_value()?),
+                    fields::TENSOR_TYPE_SHAPE => port.shape = shape(&field)?,
                     _ => (),
                 }
             }
@@ -222,12 +228,12 @@ fn port_type(field: &Field, port: &mut Port) -> Result<(), Damage> {
 fn shape(field: &Field) -> Result<Vec<Option<usize>>, Damage> {
     let axes = field
         .message()?
-        .filter(|field| !matches!(field, Ok(field) if field.number != 1));
+        .filter(|field| !matches!(field, Ok(field) if field.number != fields::SHAPE_DIMENSION));
     let axis = |field: Result<Field, Damage>| {
         let mut length = None;
         for field in field?.message()? {
             let field = field?;
-            if field.number == 1 {
+            if field.number == fields::DIMENSION_LENGTH {
                 // Some exporters write 0 or -1 for an axis that they leave open.
                 length = usize::try_from(field.number_value()?)
                     .ok()
@@ -239,6 +245,7 @@ fn shape(field: &Field) -> Result<Vec<Option<usize>>, Damage> {
     axes.map(axis).collect()
 }
 
+/// By the number of a `TensorProto.DataType`.
 fn element(number: i64) -> Element {
     match number {
         1 => Element::F32,
@@ -250,7 +257,7 @@ fn element(number: i64) -> Element {
     }
 }
 
-/// Bytes of one number; `None` for text and for what is packed.
+/// Bytes of one number of a `TensorProto.DataType`; `None` for text and for what is packed.
 fn size_of(element: i64) -> Option<usize> {
     match element {
         2 | 3 | 9 => Some(1),

@@ -1,4 +1,7 @@
-use crate::onnx_file::protobuf::{Damage, Field, Fields};
+use crate::onnx_file::{
+    fields,
+    protobuf::{Damage, Field, Fields},
+};
 use std::collections::HashMap;
 
 /// A model with the attributes written out for which the embedded backend knows no defaults: the same bytes,
@@ -32,13 +35,9 @@ impl From<Damage> for Refusal {
     }
 }
 
-/// Numbers of fields and constants of ONNX's messages (`onnx.proto3`, ONNX 1.17).
+/// Numbers of the fields of nodes and their attributes, which only this reads (`onnx.proto3`, ONNX 1.17).
 mod field {
-    pub(super) const MODEL_GRAPH: u64 = 7;
     pub(super) const GRAPH_NODE: u64 = 1;
-    pub(super) const GRAPH_INITIALIZER: u64 = 5;
-    pub(super) const TENSOR_DIMS: u64 = 1;
-    pub(super) const TENSOR_NAME: u64 = 8;
     pub(super) const NODE_INPUT: u64 = 1;
     pub(super) const NODE_NAME: u64 = 3;
     pub(super) const NODE_OP_TYPE: u64 = 4;
@@ -58,8 +57,8 @@ fn model(bytes: &[u8]) -> Result<Vec<u8>, Refusal> {
     let mut whole = Vec::with_capacity(bytes.len() + ROOM);
     for field in Fields::new(bytes) {
         let field = field?;
-        if field.number == field::MODEL_GRAPH {
-            append(&mut whole, field::MODEL_GRAPH, &graph(&field)?);
+        if field.number == fields::MODEL_GRAPH {
+            append(&mut whole, fields::MODEL_GRAPH, &graph(&field)?);
         } else {
             whole.extend(field.raw);
         }
@@ -71,7 +70,7 @@ fn graph(graph: &Field) -> Result<Vec<u8>, Refusal> {
     let mut kernels = HashMap::new();
     for field in graph.message()? {
         let field = field?;
-        if field.number == field::GRAPH_INITIALIZER {
+        if field.number == fields::GRAPH_INITIALIZER {
             kernels.extend(kernel(&field)?);
         }
     }
@@ -92,8 +91,8 @@ fn kernel(weights: &Field) -> Result<Option<(String, Vec<i64>)>, Damage> {
     for field in weights.message()? {
         let field = field?;
         match field.number {
-            field::TENSOR_DIMS => shape.extend(field.numbers()?),
-            field::TENSOR_NAME => name = field.text()?,
+            fields::TENSOR_DIMS => shape.extend(field.numbers()?),
+            fields::TENSOR_NAME => name = field.text()?,
             _ => (),
         }
     }

@@ -5,7 +5,7 @@ use anyhow::{anyhow, bail};
 use pomona::{FrameAnswer, RobotFromCamera};
 use pomona_cloud::{CloudFormat, Frame};
 use pomona_fusion::{
-    DirectionUse, FusedApple, FusedCloud, FusedRecord, FusedStatus, Fusion, FusionConfig,
+    DirectionUse, FusedApple, FusedCloud, FusedRecord, FusedStatus, FusedTree, FusionConfig,
     PosedAnswer,
 };
 use std::path::{Path, PathBuf};
@@ -99,47 +99,42 @@ impl Task<'_> {
         let posed: Vec<PosedAnswer<'_>> = self
             .frames
             .iter()
-            .map(|frame| PosedAnswer {
-                answer: frame.answer,
-                robot_from_camera: frame.pose,
-            })
+            .map(|frame| PosedAnswer::new(frame.answer, frame.pose))
             .collect();
-        let fusion = pomona_fusion::fuse(&posed, config)?;
-        self.write(&fusion, config)?;
+        let tree = pomona_fusion::fuse(&posed, config)?;
+        let text = serde_json::to_string_pretty(&FusedRecord::from(&tree))? + "\n";
+        self.write(&tree, &text, config)?;
         if self.json {
-            terminal::print(&(serde_json::to_string_pretty(&fusion.record)? + "\n"))
+            terminal::print(&text)
         } else {
-            terminal::print(&("\n".to_owned() + &table(&fusion.record, terminal)))
+            terminal::print(&("\n".to_owned() + &table(&tree, terminal)))
         }
     }
 
-    fn write(&self, fusion: &Fusion, config: &FusionConfig) -> anyhow::Result<()> {
+    fn write(&self, tree: &FusedTree, text: &str, config: &FusionConfig) -> anyhow::Result<()> {
         let files = self.output.stage()?;
         if self.cloud {
             let mut fused = FusedCloud::new(config.voxel_m);
-            for (input, correction) in self.frames.iter().zip(&fusion.corrections) {
+            for (input, fused_frame) in self.frames.iter().zip(&tree.frames) {
                 let frame = Frame::read(input.folder)?;
-                fused.add(&frame, input.pose, correction)?;
+                fused.add(&frame, input.pose, &fused_frame.correction)?;
             }
             fused
                 .cloud()
                 .write(files.file(CLOUD), CloudFormat::PlyBinaryLittleEndian)?;
         }
-        files.write_text(
-            FUSED,
-            &(serde_json::to_string_pretty(&fusion.record)? + "\n"),
-        )?;
+        files.write_text(FUSED, text)?;
         files.publish()
     }
 }
 
 /// What a person reads of the fused answers.
-fn table(record: &FusedRecord, terminal: Terminal) -> String {
+fn table(tree: &FusedTree, terminal: Terminal) -> String {
     let title = format!(
         "fused in {}: {} from {}",
-        one_line(&record.frame_id),
-        plural(record.apples.len(), "apple"),
-        plural(record.frames.len(), "frame")
+        one_line(&tree.frame_id),
+        plural(tree.apples.len(), "apple"),
+        plural(tree.frames.len(), "frame")
     );
     let mut text = terminal.paint(HEADING, &title) + "\n";
     let header = format!(
@@ -147,17 +142,17 @@ fn table(record: &FusedRecord, terminal: Terminal) -> String {
         "id", "status", "x mm", "y mm", "z mm", "sd mm", "r mm", "sd deg", "sure %", "moved mm"
     );
     text += &(terminal.paint(FAINT, &header) + "\n");
-    for apple in &record.apples {
+    for apple in &tree.apples {
         text += &(row(apple, terminal) + "\n");
     }
-    for (k, frame) in record.frames.iter().enumerate().skip(1) {
+    for (k, frame) in tree.frames.iter().enumerate().skip(1) {
         let name = one_line(&frame.id);
         let line = match &frame.shift {
             Some(shift) => format!(
                 "{name}: {} shared, {:.1} ± {:.1} mm off the first frame{}\n",
                 plural(frame.shared, "apple"),
-                shift.distance * 1e3,
-                shift.sd * 1e3,
+                shift.by.norm() * 1e3,
+                shift.sd_m * 1e3,
                 if shift.significant {
                     ": the tree swayed, or a pose is off"
                 } else {
@@ -172,7 +167,7 @@ fn table(record: &FusedRecord, terminal: Terminal) -> String {
 }
 
 fn row(apple: &FusedApple, terminal: Terminal) -> String {
-    let sd = (0..3).map(|i| apple.center_covariance[i][i]).sum::<f64>() / 3.0;
+    let sd_m = (apple.center.covariance_m2.trace() / 3.0).max(0.0).sqrt();
     let or_dash = |value: Option<String>| value.unwrap_or_else(|| "-".to_owned());
     let style = if apple.status == FusedStatus::Picked {
         GOOD
@@ -180,23 +175,27 @@ fn row(apple: &FusedApple, terminal: Terminal) -> String {
         REFUSED
     };
     let status = terminal.paint(style, &format!("{:<13}", apple.status.name()));
-    let [x, y, z] = apple.center.map(|c| c * 1e3);
+    let [x, y, z]: [f64; 3] = (apple.center.position.point() * 1e3).into();
     let outlier = apple
-        .sightings
+        .observations
         .iter()
-        .any(|s| s.direction == DirectionUse::Outlier);
+        .any(|o| o.direction_use == DirectionUse::Outlier);
     format!(
         "{:>3}  {status}  {x:>8.1} {y:>8.1} {z:>8.1} {:>6.1}  {:>5.1}  {:>6}  {:>6}  {:>8}  {}{}",
         apple.id,
-        sd.max(0.0).sqrt() * 1e3,
-        apple.radius * 1e3,
-        or_dash(apple.direction_sd.map(|s| format!("{:.1}", s.to_degrees()))),
+        sd_m * 1e3,
+        apple.radius_m * 1e3,
+        or_dash(
+            apple
+                .direction
+                .map(|d| format!("{:.1}", d.sd_rad.to_degrees()))
+        ),
         or_dash(apple.confidence.map(|c| format!("{:.0}", c * 100.0))),
         or_dash(
             apple
-                .moved
+                .movement
                 .as_ref()
-                .map(|m| format!("{:.1}", m.distance * 1e3))
+                .map(|m| format!("{:.1}", m.by.norm() * 1e3))
         ),
         apple.reason,
         if outlier { " (others dropped)" } else { "" }

@@ -8,6 +8,7 @@ mod orchard_views;
 use nalgebra::Vector3;
 use orchard_views::{Views, views};
 use pomona_fusion::{FusedApple, FusionConfig, PosedAnswer, fuse};
+use pomona_transforms::{Direction, RobotFrame};
 
 /// Errors of the apples that several frames show.
 #[derive(Default)]
@@ -34,18 +35,17 @@ impl Errors {
         views: &Views,
         apple: usize,
         center: Vector3<f64>,
-        direction: Option<[f64; 3]>,
+        direction: Option<Direction<RobotFrame>>,
     ) {
         self.centers.push((center - views.centers[apple]).norm());
         if let Some((d, truth)) = direction.zip(views.directions[apple]) {
-            self.directions
-                .push(Vector3::from(d).angle(&truth).to_degrees());
+            self.directions.push(d.vector().angle(&truth).to_degrees());
         }
     }
 }
 
 fn nearest(views: &Views, apple: &FusedApple) -> Option<usize> {
-    let center = Vector3::from(apple.center);
+    let center = apple.center.position.point().coords;
     (0..views.centers.len())
         .filter(|&i| (views.centers[i] - center).norm() < 0.03)
         .min_by(|&a, &b| {
@@ -66,24 +66,21 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let posed: Vec<PosedAnswer<'_>> = views
             .frames
             .iter()
-            .map(|(answer, robot_from_camera)| PosedAnswer {
-                answer,
-                robot_from_camera,
-            })
+            .map(|(answer, robot_from_camera)| PosedAnswer::new(answer, robot_from_camera))
             .collect();
-        let fusion = fuse(&posed, &FusionConfig::default())?;
+        let tree = fuse(&posed, &FusionConfig::default())?;
         let mut known = vec![0; views.centers.len()];
-        for apple in &fusion.record.apples {
+        for apple in &tree.apples {
             apples += 1;
-            if let Some(movement) = &apple.moved {
+            if let Some(movement) = &apple.movement {
                 moved += 1;
                 println!(
                     "scene {seed}: moved {:.1} ± {:.1} mm: {}",
-                    movement.distance * 1e3,
-                    movement.sd * 1e3,
+                    movement.by.norm() * 1e3,
+                    movement.sd_m * 1e3,
                     apple.reason
                 );
-                for s in &apple.sightings {
+                for s in &apple.observations {
                     let own = views.frames[s.frame].0.apples[s.pick].apple.as_ref();
                     let radius = own.map_or(0.0, |a| a.radius_m);
                     let visible = own.and_then(|a| a.visible_share).unwrap_or(0.0);
@@ -100,19 +97,24 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                 continue;
             };
             known[truth] += 1;
-            if apple.sightings.len() < 2 {
+            if apple.observations.len() < 2 {
                 continue;
             }
             shared += 1;
-            fused.add(&views, truth, Vector3::from(apple.center), apple.direction);
-            for s in &apple.sightings {
+            fused.add(
+                &views,
+                truth,
+                apple.center.position.point().coords,
+                apple.direction.map(|d| d.direction),
+            );
+            for s in &apple.observations {
                 let (answer, pose) = &views.frames[s.frame];
                 let own = &answer.apples[s.pick];
                 let Some(apple) = &own.apple else { continue };
                 let center = pose.transform.position(&apple.center).point();
                 let direction = own
                     .pick
-                    .map(|pick| pose.transform.direction(&pick.direction).vector().into());
+                    .map(|pick| pose.transform.direction(&pick.direction));
                 single.add(&views, truth, center.coords, direction);
             }
         }

@@ -1,239 +1,174 @@
-//! One apple from its sightings.
+//! One apple from its observations.
 
-use crate::associate::mutual_best;
-use crate::chi_square::bound_2;
-use crate::direction::{Combined, angle, combine};
-use crate::joint::{Joint, Track, jacobian, squared_distance};
-use crate::record::{DirectionUse, FusedApple, FusedStatus, MovedRecord, PlaceUse, SightingRecord};
-use crate::sighting::{DirectionSighting, Sighting};
-use nalgebra::{Matrix6, Vector3};
-use pomona::FusionConfig;
-use pomona_transforms::{Direction, RobotFrame, ToolOrientation};
+use crate::answer::{
+    DirectionUse, FusedApple, FusedDirection, FusedObservation, FusedStatus, Movement, PositionUse,
+};
+use crate::direction::{CombinedDirection, combine};
+use crate::joint::{JointEstimate, jacobian};
+use crate::links::{Link, links};
+use crate::observation::{Observation, ObservedDirection, mean_radius};
+use crate::verdict::Findings;
+use nalgebra::{Matrix3, Matrix6, Point3, Vector3};
+use pomona::{FusionConfig, Status};
+use pomona_statistics::chi_square_critical;
+use pomona_transforms::{Position, RobotFrame, UncertainPosition};
+
+/// Movements shorter than this have no direction along which to give a standard deviation, metres.
+const MIN_MOVEMENT_M: f64 = 1e-12;
 
 /// What apples are made of.
 pub(crate) struct AppleFusion<'a> {
-    pub(crate) sightings: &'a [Sighting],
-    pub(crate) tracks: &'a [Track],
-    pub(crate) joint: &'a Joint,
-    /// Covariance about the middle of what the poses of a camera at rest have in common.
-    pub(crate) common: Option<&'a Matrix6<f64>>,
-    pub(crate) middle: Vector3<f64>,
+    pub(crate) estimate: &'a JointEstimate<'a>,
+    /// Covariance about the centroid of the error that all frames have in common, where the camera is at rest.
+    pub(crate) common_pose_error: Option<&'a Matrix6<f64>>,
     pub(crate) gate: f64,
     pub(crate) config: &'a FusionConfig,
 }
 
-/// Another track of the same apple.
-#[derive(Clone, Copy)]
-struct Link {
-    other: usize,
-    /// Whether it has moved; else the other place is a misfit.
-    moved: bool,
+/// The directions at an apple's current position.
+struct Directions {
+    /// Indices of the observations that have one.
+    observations: Vec<usize>,
+    combined: Option<CombinedDirection>,
+}
+
+impl Directions {
+    /// Whether the direction of an observation agrees with the combined one; `None` where it is not of these.
+    fn agrees(&self, observation: usize) -> Option<bool> {
+        let n = self.observations.iter().position(|&i| i == observation)?;
+        Some(self.combined.as_ref()?.agreeing[n])
+    }
 }
 
 impl AppleFusion<'_> {
     /// All apples, in the order in which the frames show them first.
-    pub(crate) fn all(&self) -> Vec<FusedApple> {
-        let links = self.links();
-        let gone: Vec<usize> = links.iter().flatten().map(|l| l.other).collect();
-        let mut order: Vec<usize> = (0..self.tracks.len())
-            .filter(|a| !gone.contains(a))
+    pub(crate) fn apples(&self) -> Vec<FusedApple> {
+        let links = links(self.estimate, self.gate, self.config);
+        let replaced: Vec<usize> = links.iter().flatten().map(|l| l.other).collect();
+        let mut current: Vec<usize> = (0..self.estimate.tracks.len())
+            .filter(|track| !replaced.contains(track))
             .collect();
-        order.sort_by_key(|&a| {
-            let other = links[a].map(|l| &self.tracks[l.other]);
-            let all = self.tracks[a].iter().chain(other.into_iter().flatten());
-            all.min()
-        });
-        order
+        current.sort_by_key(|&track| self.all_observations(track, links[track]).first().copied());
+        current
             .into_iter()
             .enumerate()
-            .map(|(id, a)| self.apple(id, a, links[a]))
+            .map(|(id, track)| self.apple(id, track, links[track]))
             .collect()
     }
 
-    fn radius(&self, track: &[usize]) -> (f64, f64) {
-        let weights = track.iter().map(|&i| {
-            (
-                self.sightings[i].radius,
-                self.sightings[i].radius_variance.recip(),
-            )
-        });
-        let (sum, weight) = weights.fold((0.0, 0.0), |(s, w), (r, q)| (s + r * q, w + q));
-        (sum / weight, weight.recip().sqrt())
-    }
-
-    fn last_frame(&self, track: &[usize]) -> usize {
-        let frames = track.iter().map(|&i| self.sightings[i].frame);
-        frames.max().unwrap_or(0)
-    }
-
-    /// Largest visible share among a track's sightings; a method that states none is trusted.
-    fn visible(&self, track: &[usize]) -> f64 {
-        let shares = track.iter().map(|&i| self.sightings[i].visible_share);
-        shares.fold(0.0, f64::max)
-    }
-
-    /// For each track the one that is the same apple at another place.
-    ///
-    /// Two bodies cannot be in one place: tracks of different frames whose spheres overlap are one apple. It has moved
-    /// where both places are well seen and the radii agree; else the place that is seen worse is a misfit.
-    fn links(&self) -> Vec<Option<Link>> {
-        let n = self.tracks.len();
-        let frames = |a: usize| self.tracks[a].iter().map(move |&i| self.sightings[i].frame);
-        let radii: Vec<(f64, f64)> = self.tracks.iter().map(|t| self.radius(t)).collect();
-        let overlap = |a: usize, b: usize| {
-            if a == b || frames(a).any(|f| frames(b).any(|g| f == g)) {
-                return f64::INFINITY;
-            }
-            let way = self.joint.places[a].center - self.joint.places[b].center;
-            way.norm() / (radii[a].0 + radii[b].0)
+    /// The apple of a track, which is where it is now.
+    fn apple(&self, id: usize, track: usize, link: Option<Link>) -> FusedApple {
+        let observations = self.all_observations(track, link);
+        let movement = link.filter(|link| link.moved);
+        let (radius_m, radius_sd_m) = if movement.is_some() {
+            mean_radius(observations.iter().map(|&i| self.observation(i)))
+        } else {
+            mean_radius(self.estimate.observations_of(track))
         };
-        let pairs = mutual_best(n, n, self.config.moved_reach, overlap);
-        let link = |a: usize| {
-            let b = pairs[a]?;
-            let seen = [a, b].map(|t| self.visible(&self.tracks[t]));
-            let variance = radii[a].1.powi(2) + radii[b].1.powi(2);
-            let alike = (radii[a].0 - radii[b].0).powi(2) <= self.gate * variance;
-            let way = self.joint.places[a].center - self.joint.places[b].center;
-            let beyond = squared_distance(&way, &self.joint.difference(a, b)) > self.gate;
-            let moved = beyond && alike && seen.iter().all(|v| *v >= self.config.moved_visible);
-            let last = [a, b].map(|t| self.last_frame(&self.tracks[t]));
-            let leads = if moved || seen[0] == seen[1] {
-                last[0] > last[1]
-            } else {
-                seen[0] > seen[1]
-            };
-            leads.then_some(Link { other: b, moved })
+        let directions = self.directions(track);
+        let statuses: Vec<Status> = observations
+            .iter()
+            .map(|&i| self.observation(i).status)
+            .collect();
+        let findings = Findings {
+            statuses: &statuses,
+            current: self.estimate.tracks[track].len(),
+            link,
+            directions: directions.observations.len(),
+            combined: directions.combined.as_ref(),
         };
-        (0..n).map(link).collect()
-    }
-
-    fn apple(&self, id: usize, a: usize, link: Option<Link>) -> FusedApple {
-        let place = &self.joint.places[a];
-        let current = &self.tracks[a];
-        let mut covariance = place.covariance;
-        if let Some(common) = self.common {
-            let j = jacobian(&place.center, &self.middle);
-            covariance += j * common * j.transpose();
-        }
-        let mut all = current.clone();
-        all.extend(link.map(|l| &self.tracks[l.other]).into_iter().flatten());
-        all.sort_unstable();
-        let moved = link.filter(|l| l.moved);
-        let (radius, radius_sd) = self.radius(if moved.is_some() { &all } else { current });
-
-        let with: Vec<(usize, DirectionSighting)> = current
-            .iter()
-            .filter_map(|&i| Some((i, self.sightings[i].direction?)))
-            .collect();
-        let directions: Vec<DirectionSighting> = with.iter().map(|(_, d)| *d).collect();
-        let gate = bound_2(self.config.direction_rate);
-        let combined = combine(&directions, gate, self.config.repeated_error);
-        let (status, reason) = self.judge(
-            &all,
-            (current.len(), link),
-            directions.len(),
-            combined.as_ref(),
-        );
-        let used: Vec<(usize, bool)> = combined
-            .iter()
-            .flat_map(|c| &c.used)
-            .copied()
-            .collect::<Vec<_>>()
-            .into_iter()
-            .zip(&with)
-            .map(|(used, (i, _))| (*i, used))
-            .collect();
-        let picked = combined.as_ref().filter(|_| status == FusedStatus::Picked);
-        let unit = picked.map(|c| c.unit);
-        let foot = unit
-            .and_then(|unit| Some(place.center + unit.into_inner() * self.foot_distance(&used)?));
-        let tool = unit.map(|u| ToolOrientation::along(&Direction::<RobotFrame>::from_unit(u)));
+        let (status, reason) = findings.verdict(self.config.least_confidence);
+        let direction = (status == FusedStatus::Picked)
+            .then(|| self.direction(track, &directions))
+            .flatten();
+        let next_views = if direction.is_some() {
+            Vec::new()
+        } else {
+            let views = observations.iter().map(|&i| self.observation(i).next_view);
+            views.flatten().collect()
+        };
         FusedApple {
             id,
             status,
-            center: place.center.into(),
-            center_covariance: covariance.into(),
-            radius,
-            radius_sd,
-            direction: unit.map(|u| u.into_inner().into()),
-            direction_sd: picked.map(|c| c.sd),
-            confidence: combined.as_ref().map(|c| c.confidence),
+            center: self.center(track),
+            radius_m,
+            radius_sd_m,
+            direction,
+            confidence: directions.combined.as_ref().map(|c| c.confidence),
             reason,
-            foot: foot.map(Into::into),
-            quaternion_xyzw: tool.map(|t| t.quaternion_xyzw()),
-            moved: moved.map(|l| self.moved(a, l.other)),
-            view_from: if picked.is_some() {
-                Vec::new()
-            } else {
-                let views = all.iter().filter_map(|&i| self.sightings[i].view_from);
-                views.map(Into::into).collect()
-            },
-            sightings: all
+            movement: movement.map(|link| self.movement(track, link.other)),
+            next_views,
+            observations: observations
                 .iter()
-                .map(|&i| {
-                    let elsewhere = link.filter(|_| !current.contains(&i));
-                    let mut sighting = self.sighting(
-                        i,
-                        elsewhere.map_or(a, |l| l.other),
-                        a,
-                        &used,
-                        combined.as_ref(),
-                    );
-                    if let Some(link) = elsewhere {
-                        sighting.place = if link.moved {
-                            PlaceUse::Elsewhere
-                        } else {
-                            PlaceUse::Misfit
-                        };
-                        if !link.moved {
-                            sighting.residual =
-                                (self.joint.corrected(&self.sightings[i]) - place.center).norm();
-                        }
-                    }
-                    sighting
-                })
+                .map(|&i| self.fused_observation(i, track, link, &directions))
                 .collect(),
         }
     }
 
-    /// `track` holds the sighting, `current` is where the apple is.
-    fn sighting(
-        &self,
-        i: usize,
-        track: usize,
-        current: usize,
-        used: &[(usize, bool)],
-        combined: Option<&Combined>,
-    ) -> SightingRecord {
-        let s = &self.sightings[i];
-        let direction = match (s.direction, used.iter().find(|(j, _)| *j == i)) {
-            (None, _) => DirectionUse::None,
-            (Some(_), _) if track != current => DirectionUse::Stale,
-            (Some(_), Some((_, true))) => DirectionUse::Used,
-            (Some(_), _) => DirectionUse::Outlier,
-        };
-        let off = s
-            .direction
-            .zip(combined)
-            .map(|(d, c)| angle(&d.unit, &c.unit));
-        SightingRecord {
-            frame: s.frame,
-            pick: s.pick,
-            status: s.status,
-            residual: (self.joint.corrected(s) - self.joint.places[track].center).norm(),
-            place: PlaceUse::Used,
-            direction,
-            direction_off: off,
+    fn observation(&self, i: usize) -> &Observation {
+        &self.estimate.observations[i]
+    }
+
+    /// The observations of an apple at its current and its other position, in the order of the frames.
+    fn all_observations(&self, track: usize, link: Option<Link>) -> Vec<usize> {
+        let mut all = self.estimate.tracks[track].clone();
+        all.extend(
+            link.map(|l| &self.estimate.tracks[l.other])
+                .into_iter()
+                .flatten(),
+        );
+        all.sort_unstable();
+        all
+    }
+
+    /// The centre; errors that the poses have in common do not average out.
+    fn center(&self, track: usize) -> UncertainPosition<RobotFrame> {
+        let position = &self.estimate.positions[track];
+        let common = self.common_pose_error.map_or_else(Matrix3::zeros, |error| {
+            let j = jacobian(&position.center, &self.estimate.centroid);
+            j * error * j.transpose()
+        });
+        UncertainPosition {
+            position: robot_position(&position.center),
+            covariance_m2: position.covariance + common,
         }
     }
 
-    /// The mean of the frames' distances of the foot, by the variances of the centres.
-    fn foot_distance(&self, used: &[(usize, bool)]) -> Option<f64> {
+    fn directions(&self, track: usize) -> Directions {
+        let (observations, directions): (Vec<usize>, Vec<ObservedDirection>) = self.estimate.tracks
+            [track]
+            .iter()
+            .filter_map(|&i| Some((i, self.observation(i).direction?)))
+            .unzip();
+        let gate = chi_square_critical(self.config.direction_rate, 2);
+        Directions {
+            observations,
+            combined: combine(&directions, gate, self.config.repeated_error),
+        }
+    }
+
+    fn direction(&self, track: usize, directions: &Directions) -> Option<FusedDirection> {
+        let combined = directions.combined.as_ref()?;
+        let center = self.estimate.positions[track].center;
+        let foot = self
+            .foot_distance(directions)
+            .map(|distance_m| robot_position(&center).moved(&combined.direction, distance_m));
+        Some(FusedDirection {
+            direction: combined.direction,
+            sd_rad: combined.sd_rad,
+            foot,
+        })
+    }
+
+    /// Mean of the agreeing frames' distances of the foot, weighted by the inverse variances of the centres, metres.
+    fn foot_distance(&self, directions: &Directions) -> Option<f64> {
         let (mut sum, mut weight) = (0.0, 0.0);
-        for (i, _) in used.iter().filter(|(_, used)| *used) {
-            let s = &self.sightings[*i];
-            if let Some(distance) = s.foot_distance {
-                let w = s.covariance.trace().recip();
+        for &i in &directions.observations {
+            let observation = self.observation(i);
+            if let (Some(true), Some(distance)) =
+                (directions.agrees(i), observation.foot_distance_m)
+            {
+                let w = observation.covariance.trace().recip();
                 sum += distance * w;
                 weight += w;
             }
@@ -241,81 +176,63 @@ impl AppleFusion<'_> {
         (weight > 0.0).then(|| sum / weight)
     }
 
-    fn moved(&self, a: usize, b: usize) -> MovedRecord {
-        let from = self.joint.places[b].center;
-        let by = self.joint.places[a].center - from;
-        let along = by.try_normalize(1e-12).unwrap_or_default();
-        let variance = along.dot(&(self.joint.difference(a, b) * along));
-        let mut frames: Vec<usize> = self.tracks[b]
-            .iter()
-            .map(|&i| self.sightings[i].frame)
+    /// The movement from the position of track `other` to that of `track`.
+    fn movement(&self, track: usize, other: usize) -> Movement {
+        let (by, covariance) = self.estimate.difference(track, other);
+        let along = by.try_normalize(MIN_MOVEMENT_M).unwrap_or_default();
+        let variance = along.dot(&(covariance * along));
+        let mut frames: Vec<usize> = self
+            .estimate
+            .observations_of(other)
+            .map(|o| o.frame)
             .collect();
         frames.sort_unstable();
-        MovedRecord {
-            from: from.into(),
-            by: by.into(),
-            distance: by.norm(),
-            sd: variance.max(0.0).sqrt(),
+        Movement {
+            from: robot_position(&self.estimate.positions[other].center),
+            by,
+            sd_m: variance.max(0.0).sqrt(),
             frames,
         }
     }
 
-    /// The status, and where it comes from in words.
-    fn judge(
+    /// What observation `i` of the apple at `track` was used for.
+    fn fused_observation(
         &self,
-        all: &[usize],
-        (current, link): (usize, Option<Link>),
-        directions: usize,
-        combined: Option<&Combined>,
-    ) -> (FusedStatus, String) {
-        let seen = format!("seen in {}", frames(all.len()));
-        let seen = match link {
-            Some(link) if link.moved => format!("{seen}, moved, {current} of them after that"),
-            Some(_) => format!("{seen}, {} of them a misfit", all.len() - current),
-            None => seen,
+        i: usize,
+        track: usize,
+        link: Option<Link>,
+        directions: &Directions,
+    ) -> FusedObservation {
+        let observation = self.observation(i);
+        let elsewhere = link.filter(|_| !self.estimate.tracks[track].contains(&i));
+        // An apple that has moved is compared with its position then, a misfit with the position that it contradicts.
+        let (position_use, compared) = match elsewhere {
+            None => (PositionUse::Used, track),
+            Some(link) if link.moved => (PositionUse::Elsewhere, link.other),
+            Some(_) => (PositionUse::Misfit, track),
         };
-        let Some(combined) = combined else {
-            let mut names: Vec<&str> = all
-                .iter()
-                .map(|&i| self.sightings[i].status.name())
-                .collect();
-            names.sort_unstable();
-            names.dedup();
-            let names = names.join(", ");
-            return (
-                FusedStatus::NoDirection,
-                format!("{seen}, no direction: {names}"),
-            );
+        let direction_use = match (observation.direction, directions.agrees(i)) {
+            (None, _) => DirectionUse::None,
+            (Some(_), _) if elsewhere.is_some() => DirectionUse::Stale,
+            (Some(_), Some(true)) => DirectionUse::Used,
+            (Some(_), _) => DirectionUse::Outlier,
         };
-        let agreeing = combined.used.iter().filter(|used| **used).count();
-        let mut reason = match (directions, agreeing) {
-            (1, _) => format!("{seen}, a direction from 1"),
-            (n, k) if n == k => format!("{seen}, {n} directions agree"),
-            (n, k) => format!("{seen}, {k} of {n} directions agree"),
-        };
-        if combined.confidence >= self.config.least_confidence
-            && !tied(agreeing, directions, combined)
-        {
-            return (FusedStatus::Picked, reason);
-        }
-        reason += ", not sure enough";
-        if agreeing < directions {
-            (FusedStatus::Contradiction, reason)
-        } else {
-            (FusedStatus::Unsure, reason)
+        let center = self.estimate.positions[compared].center;
+        FusedObservation {
+            frame: observation.frame,
+            pick: observation.pick,
+            status: observation.status,
+            position_use,
+            residual_m: (self.estimate.corrected(observation) - center).norm(),
+            direction_use,
+            direction_offset_rad: observation
+                .direction
+                .zip(directions.combined.as_ref())
+                .map(|(own, combined)| own.direction.angle_to(&combined.direction)),
         }
     }
 }
 
-/// Whether the directions contradict each other and none of them has even odds.
-fn tied(agreeing: usize, directions: usize, combined: &Combined) -> bool {
-    agreeing < directions && combined.confidence < 0.5
-}
-
-fn frames(count: usize) -> String {
-    if count == 1 {
-        "1 frame".to_owned()
-    } else {
-        format!("{count} frames")
-    }
+fn robot_position(center: &Vector3<f64>) -> Position<RobotFrame> {
+    Position::new(Point3::from(*center))
 }

@@ -1,11 +1,13 @@
+//! The points of all frames in one cloud.
+
 use nalgebra::{Isometry3, Point3};
 use pomona::RobotFromCamera;
 use pomona_cloud::{CloudError, Frame, PixelWindow, PointCloud};
 
-/// One point of the thinned cloud in the making: its cell, then where it is and which colour it has.
-struct Sample {
+/// One point before it is added to its cell.
+struct ColoredPoint {
     cell: [i64; 3],
-    point: Point3<f64>,
+    position: Point3<f64>,
     color: [u8; 3],
 }
 
@@ -35,7 +37,7 @@ impl FusedCloud {
     }
 
     /// Adds the points of a frame, brought into the robot's frame by its pose and then `correction`
-    /// (see [`Fusion::corrections`](crate::Fusion::corrections)).
+    /// (see [`FusedFrame::correction`](crate::FusedFrame::correction)).
     ///
     /// # Errors
     ///
@@ -52,24 +54,24 @@ impl FusedCloud {
         let pose = correction * robot_from_camera.transform.isometry();
         let window = PixelWindow::full(frame.depth.width, frame.depth.height);
         let points = frame.window(window)?;
-        let mut samples: Vec<Sample> = (0..points.len())
+        let mut colored: Vec<ColoredPoint> = (0..points.len())
             .map(|i| {
-                let point = pose * points.point(i);
+                let position = pose * points.point(i);
                 let pixel = points.pixel[i] as usize;
-                Sample {
-                    cell: [0, 1, 2].map(|axis| (point[axis] / self.voxel_m).floor() as i64),
-                    point,
+                ColoredPoint {
+                    cell: [0, 1, 2].map(|axis| (position[axis] / self.voxel_m).floor() as i64),
+                    position,
                     color: frame.color.pixels.get(pixel).copied().unwrap_or_default(),
                 }
             })
             .collect();
         // Stable: the sums of a cell are taken in the order of the pixels.
-        samples.sort_by_key(|s| s.cell);
+        colored.sort_by_key(|p| p.cell);
         let mut added: Vec<Cell> = Vec::new();
-        for s in &samples {
+        for point in &colored {
             match added.last_mut() {
-                Some(last) if last.key == s.cell => last.add(s),
-                _ => added.push(Cell::of(s)),
+                Some(last) if last.key == point.cell => last.add(point),
+                _ => added.push(Cell::of(point)),
             }
         }
         self.cells = merged(std::mem::take(&mut self.cells), added);
@@ -90,22 +92,22 @@ impl FusedCloud {
 }
 
 impl Cell {
-    fn of(s: &Sample) -> Self {
+    fn of(point: &ColoredPoint) -> Self {
         let mut cell = Self {
-            key: s.cell,
+            key: point.cell,
             count: 0,
             sum: [0.0; 3],
             color: [0; 3],
         };
-        cell.add(s);
+        cell.add(point);
         cell
     }
 
-    fn add(&mut self, s: &Sample) {
+    fn add(&mut self, point: &ColoredPoint) {
         self.count = self.count.saturating_add(1);
         for axis in 0..3 {
-            self.sum[axis] += s.point[axis];
-            self.color[axis] += u64::from(s.color[axis]);
+            self.sum[axis] += point.position[axis];
+            self.color[axis] += u64::from(point.color[axis]);
         }
     }
 

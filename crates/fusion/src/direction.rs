@@ -1,43 +1,56 @@
 //! The frames' directions combined on the sphere.
 
-use crate::sighting::DirectionSighting;
-use nalgebra::{UnitVector3, Vector3};
+use crate::observation::ObservedDirection;
+use nalgebra::Vector3;
+use pomona_transforms::{Direction, RobotFrame};
+
+/// Most steps to the mean; each squares the error, and three reach the last digit.
+const MAX_MEAN_STEPS: usize = 20;
+
+/// The mean is found when a step is shorter than this, radians.
+const MEAN_TOLERANCE_RAD: f64 = 1e-14;
+
+/// Directions whose mean vector is shorter than this cancel out: they have no mean.
+const MIN_MEAN_LENGTH: f64 = 1e-9;
+
+/// Below this the sine of an angle equals the angle to double precision.
+const SMALL_ANGLE_RAD: f64 = 1e-8;
 
 /// Directions that agree, combined.
 #[derive(Clone, Debug)]
-pub(crate) struct Combined {
-    pub(crate) unit: UnitVector3<f64>,
-    pub(crate) sd: f64,
+pub(crate) struct CombinedDirection {
+    pub(crate) direction: Direction<RobotFrame>,
+    pub(crate) sd_rad: f64,
     pub(crate) confidence: f64,
     /// Which of the directions agree with it.
-    pub(crate) used: Vec<bool>,
+    pub(crate) agreeing: Vec<bool>,
+}
+
+impl CombinedDirection {
+    /// How many directions agree with it.
+    pub(crate) fn agreeing_count(&self) -> usize {
+        self.agreeing.iter().filter(|agrees| **agrees).count()
+    }
 }
 
 /// The group of agreeing directions that is most probably right.
 ///
 /// A right direction is off by its standard deviation; a wrong one repeats another wrong one with probability
 /// `repeated_error`. Hypotheses are that the directions near one of them are right, or that none is; the confidence is
-/// the probability of the best of them (Bayes). `gate` bounds the squared angle over the variances.
+/// the posterior probability of the best of them. `gate` bounds the squared angle over the sum of the variances.
+///
+/// `None` where there is no direction.
 pub(crate) fn combine(
-    directions: &[DirectionSighting],
+    directions: &[ObservedDirection],
     gate: f64,
     repeated_error: f64,
-) -> Option<Combined> {
+) -> Option<CombinedDirection> {
     let mut groups: Vec<(f64, Vec<bool>)> = Vec::new();
     for seed in directions {
-        let used: Vec<bool> = directions.iter().map(|d| agree(seed, d, gate)).collect();
-        if groups.iter().any(|(_, known)| *known == used) {
-            continue;
+        let group: Vec<bool> = directions.iter().map(|d| agree(seed, d, gate)).collect();
+        if !groups.iter().any(|(_, known)| *known == group) {
+            groups.push((odds(directions, &group, repeated_error), group));
         }
-        let (mut right, mut wrong, mut members) = (1.0, 1.0, 0);
-        for (d, used) in directions.iter().zip(&used) {
-            if *used {
-                right *= d.confidence;
-                wrong *= 1.0 - d.confidence;
-                members += 1;
-            }
-        }
-        groups.push((right / wrong / repeated_error.powi(members - 1), used));
     }
     let total: f64 = groups.iter().map(|(odds, _)| odds).sum();
     let mut best = groups.first()?;
@@ -46,89 +59,108 @@ pub(crate) fn combine(
             best = group;
         }
     }
-    let (odds, used) = best.clone();
-    let members: Vec<&DirectionSighting> = directions
+    let (odds, agreeing) = best.clone();
+    let members: Vec<&ObservedDirection> = directions
         .iter()
-        .zip(&used)
-        .filter_map(|(d, used)| used.then_some(d))
+        .zip(&agreeing)
+        .filter_map(|(d, agrees)| agrees.then_some(d))
         .collect();
-    let (unit, sd) = mean(&members)?;
-    // Groups that share members are not alternatives: the total may exceed what it stands for, never fall below.
-    Some(Combined {
-        unit,
-        sd,
+    let (direction, sd_rad) = mean(&members)?;
+    // Groups that share members are not alternatives: the total may exceed the true one but never fall below it.
+    Some(CombinedDirection {
+        direction,
+        sd_rad,
         confidence: odds / (1.0 + total),
-        used,
+        agreeing,
     })
 }
 
-fn agree(a: &DirectionSighting, b: &DirectionSighting, gate: f64) -> bool {
-    let angle = angle(&a.unit, &b.unit);
-    angle.powi(2) <= gate * (a.sd.powi(2) + b.sd.powi(2))
+/// Odds that the members of a group are all right, against all directions being wrong.
+fn odds(directions: &[ObservedDirection], group: &[bool], repeated_error: f64) -> f64 {
+    let (mut right, mut wrong, mut members) = (1.0, 1.0, 0);
+    for (d, member) in directions.iter().zip(group) {
+        if *member {
+            right *= d.confidence;
+            wrong *= 1.0 - d.confidence;
+            members += 1;
+        }
+    }
+    right / wrong / repeated_error.powi(members - 1)
 }
 
-/// Angle between two directions, radians.
-pub(crate) fn angle(a: &UnitVector3<f64>, b: &UnitVector3<f64>) -> f64 {
-    a.cross(b).norm().atan2(a.dot(b))
+fn agree(a: &ObservedDirection, b: &ObservedDirection, gate: f64) -> bool {
+    let angle = a.direction.angle_to(&b.direction);
+    angle.powi(2) <= gate * (a.sd_rad.powi(2) + b.sd_rad.powi(2))
 }
 
-/// Weighted mean on the sphere (Karcher) and its standard deviation, which grows where they scatter by more than they state.
-fn mean(members: &[&DirectionSighting]) -> Option<(UnitVector3<f64>, f64)> {
-    let weight: f64 = members.iter().map(|d| d.sd.powi(-2)).sum();
+/// Weighted mean on the sphere and its standard deviation, which grows where the directions scatter by more than they state.
+///
+/// Source: Buss and Fillmore 2001, algorithm A1, doi 10.1145/502122.502124; the factor of the standard deviation is
+/// Birge's ratio, √(χ²/ν) where it exceeds 1 (Birge 1932, doi 10.1103/PhysRev.40.207).
+fn mean(members: &[&ObservedDirection]) -> Option<(Direction<RobotFrame>, f64)> {
+    let weight: f64 = members.iter().map(|d| d.sd_rad.powi(-2)).sum();
     let sum: Vector3<f64> = members
         .iter()
-        .map(|d| d.unit.into_inner() * d.sd.powi(-2))
+        .map(|d| d.direction.vector() * d.sd_rad.powi(-2))
         .sum();
-    let mut unit = UnitVector3::try_new(sum, 1e-9 * weight)?;
-    for _ in 0..20 {
+    if !(sum.norm() > MIN_MEAN_LENGTH * weight) {
+        return None;
+    }
+    let mut mean = Direction::new(sum)?;
+    for _ in 0..MAX_MEAN_STEPS {
         let step: Vector3<f64> = members
             .iter()
-            .map(|d| tangent(&unit, &d.unit) * d.sd.powi(-2))
+            .map(|d| tangent(&mean, &d.direction) * d.sd_rad.powi(-2))
             .sum::<Vector3<f64>>()
             / weight;
-        let length = step.norm();
-        let next = unit.into_inner() * length.cos() + step * sinc(length);
-        unit = UnitVector3::try_new(next, 1e-9)?;
-        if length < 1e-14 {
+        let angle = step.norm();
+        mean = Direction::new(mean.vector() * angle.cos() + step * sinc(angle))?;
+        if angle < MEAN_TOLERANCE_RAD {
             break;
         }
     }
     let squares: f64 = members
         .iter()
-        .map(|d| (angle(&unit, &d.unit) / d.sd).powi(2))
+        .map(|d| (mean.angle_to(&d.direction) / d.sd_rad).powi(2))
         .sum();
-    let freedom = 2.0 * (members.len() as f64 - 1.0);
-    let scatter = if freedom > 0.0 {
-        (squares / freedom).max(1.0)
+    // Two for each direction, less the two of the mean.
+    let degrees_of_freedom = 2.0 * (members.len() as f64 - 1.0);
+    let scatter = if degrees_of_freedom > 0.0 {
+        (squares / degrees_of_freedom).max(1.0)
     } else {
         1.0
     };
-    Some((unit, (scatter / weight).sqrt()))
+    Some((mean, (scatter / weight).sqrt()))
 }
 
-/// The way from `base` to `to` on the sphere, as a tangent at `base`.
-fn tangent(base: &UnitVector3<f64>, to: &UnitVector3<f64>) -> Vector3<f64> {
-    let across = to.into_inner() - base.into_inner() * base.dot(to);
+/// The arc from `base` to `to` as a tangent vector at `base`, radians.
+fn tangent(base: &Direction<RobotFrame>, to: &Direction<RobotFrame>) -> Vector3<f64> {
+    let (base, to) = (base.vector(), to.vector());
+    let across = to - base * base.dot(&to);
     let sine = across.norm();
-    if sine < 1e-12 {
+    if sine < SMALL_ANGLE_RAD {
         return across;
     }
-    across * (sine.atan2(base.dot(to)) / sine)
+    across * (sine.atan2(base.dot(&to)) / sine)
 }
 
-fn sinc(x: f64) -> f64 {
-    if x < 1e-8 { 1.0 } else { x.sin() / x }
+fn sinc(angle: f64) -> f64 {
+    if angle < SMALL_ANGLE_RAD {
+        1.0
+    } else {
+        angle.sin() / angle
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn at(degrees: f64, sd_degrees: f64, confidence: f64) -> DirectionSighting {
+    fn at(degrees: f64, sd_degrees: f64, confidence: f64) -> ObservedDirection {
         let a = degrees.to_radians();
-        DirectionSighting {
-            unit: UnitVector3::new_normalize(Vector3::new(a.cos(), a.sin(), 0.0)),
-            sd: sd_degrees.to_radians(),
+        ObservedDirection {
+            direction: Direction::new(Vector3::new(a.cos(), a.sin(), 0.0)).unwrap(),
+            sd_rad: sd_degrees.to_radians(),
             confidence,
         }
     }
@@ -136,15 +168,24 @@ mod tests {
     #[test]
     fn the_mean_leans_to_the_surer_and_is_surer_than_both() {
         let c = combine(&[at(0.0, 2.0, 0.8), at(3.0, 1.0, 0.8)], 13.8, 0.3).unwrap();
-        assert!((c.unit.y.atan2(c.unit.x).to_degrees() - 2.4).abs() < 1e-9);
-        assert!(c.sd < 1f64.to_radians() && c.confidence > 0.9);
-        assert_eq!(c.used, [true, true]);
+        assert!(
+            (c.direction
+                .vector()
+                .y
+                .atan2(c.direction.vector().x)
+                .to_degrees()
+                - 2.4)
+                .abs()
+                < 1e-9
+        );
+        assert!(c.sd_rad < 1f64.to_radians() && c.confidence > 0.9);
+        assert_eq!(c.agreeing, [true, true]);
     }
 
     #[test]
     fn one_alone_keeps_its_confidence() {
         let c = combine(&[at(0.0, 2.0, 0.6)], 13.8, 0.3).unwrap();
-        assert!((c.confidence - 0.6).abs() < 1e-12 && (c.sd - 2f64.to_radians()).abs() < 1e-12);
+        assert!((c.confidence - 0.6).abs() < 1e-12 && (c.sd_rad - 2f64.to_radians()).abs() < 1e-12);
     }
 
     #[test]
@@ -155,7 +196,7 @@ mod tests {
             0.3,
         )
         .unwrap();
-        assert_eq!(c.used, [true, false, true]);
+        assert_eq!(c.agreeing, [true, false, true]);
         assert!(c.confidence > 0.6 && c.confidence < 0.95);
     }
 

@@ -1,3 +1,5 @@
+//! Why frames cannot be fused.
+
 use thiserror::Error;
 
 /// Why frames could not be fused.
@@ -40,7 +42,7 @@ pub enum FusionError {
     },
     /// The same frame is given twice.
     #[error(
-        "frames '{first}' and '{second}' are the same picture: the same apple would count twice; \
+        "frames '{first}' and '{second}' are the same image: the same apple would count twice; \
          give each frame once"
     )]
     SameFrame {
@@ -49,7 +51,7 @@ pub enum FusionError {
         /// Id of the other.
         second: String,
     },
-    /// The numbers of a pose or a record are none to calculate with.
+    /// A covariance of a pose or an apple is not positive definite.
     #[error(
         "the poses and the apples' covariances cannot be combined: check that the poses' covariances \
          are of metres and radians"

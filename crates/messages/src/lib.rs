@@ -8,13 +8,12 @@
 //!
 //! // A rendered frame of one apple below a branch; the camera looks along the robot's x axis.
 //! let case = Suite::Lab15.cases().find(|case| case.name.contains("x0")).unwrap();
-//! let frame = case.scene().frame;
+//! let scene = case.scene();
+//! let frame = CheckedFrame::new(&scene.frame)?;
 //! let pose = Transform::from_quaternion([0.0, 0.0, 0.5], [-0.5, 0.5, -0.5, 0.5])?;
-//! let robot_from_camera = RobotFromCamera::new(pose, "base_link", frame.camera.frame_id.clone());
+//! let robot_from_camera = RobotFromCamera::new(pose, "base_link", scene.frame.camera.frame_id.clone());
 //!
-//! let picker = Picker::new(Config::default())?;
-//! let frame = CheckedFrame::new(&frame)?;
-//! let mut answer = picker.pick(&frame, 0, Some(&robot_from_camera))?;
+//! let mut answer = Picker::new(Config::default())?.pick(&frame, 0, Some(&robot_from_camera))?;
 //! let robot = Robot::new(ApproachConfig::default())?;
 //! let plan = robot.plan(&frame, &mut answer, &robot_from_camera);
 //!
@@ -26,17 +25,30 @@
 //!
 //! # Concepts
 //!
-//! - [`ros`] turns a plan into messages of ROS 2 and `MoveIt` and writes them as YAML that `ros2 topic pub` takes.
+//! - [`ros`] turns a [`RobotPlan`](pomona::RobotPlan) into messages of ROS 2 and `MoveIt`, each field as its public
+//!   definition has it, and writes them as YAML that `ros2 topic pub` takes.
 //! - `recording`, with the feature `mcap`, writes a frame and its plan as an MCAP file with Foxglove's schemas.
+//! - [`ranked`] lists the approaches of a plan in the picking order, in which both write them.
+//!
+//! Metres, radians and seconds, in the robot's frame; poses are those of the wrist link.
 //!
 //! # Not here
 //!
-//! Planning (`pomona`, `pomona-approach`), ROS nodes and transports: what comes out are texts and bytes.
+//! Planning (`pomona`, `pomona-approach`); ROS nodes and transports: the results are texts and bytes.
 //!
 //! # Features
 //!
 //! `mcap` (off by default): the module `recording`.
+//!
+//! # References
+//!
+//! Definitions of the messages: ROS 2 Jazzy (`common_interfaces`, `moveit_msgs`), <https://docs.ros.org/en/jazzy>.
+//! Recordings: <https://mcap.dev/spec>, <https://docs.foxglove.dev/docs/sdk/schemas>.
 
+mod order;
+mod pose;
 #[cfg(feature = "mcap")]
 pub mod recording;
 pub mod ros;
+
+pub use order::ranked;

@@ -3,25 +3,28 @@
 //! Messages are JSON, each channel with the JSON Schema of its message under Foxglove's well-known
 //! name:
 //!
-//! | topic | schema | what |
+//! | topic | schema | content |
 //! |---|---|---|
 //! | `/tf` | `foxglove.FrameTransform` | the camera in the robot's frame; each pick's tool over time |
 //! | `/cloud` | `foxglove.PointCloud` | the frame's points with their colours, in the camera's frame |
 //! | `/scene` | `foxglove.SceneUpdate` | apples, boxes about them, branches, paths, grippers |
-//! | `/grasps` | `foxglove.PosesInFrame` | the wrist at the apples, in the order of picking |
+//! | `/grasps` | `foxglove.PosesInFrame` | the wrist at the apples, in the picking order |
 //!
-//! Times begin at 0, the tools move as their paths do, one pick after the other in their order.
+//! Times begin at 0; the tools move along their paths, one pick after the other in the picking order.
 
-mod messages;
-mod schemas;
+mod content;
+mod foxglove;
 
-use crate::ros;
+use crate::order::ranked;
+use foxglove::{FrameTransform, PointCloud, PosesInFrame, SceneUpdate, Time};
 use mcap::records::MessageHeader;
 use mcap::{WriteOptions, Writer};
 use pomona::{CheckedFrame, Robot, RobotFromCamera, RobotPlan};
-use serde_json::Value;
+use schemars::JsonSchema;
+use serde::Serialize;
 use std::collections::BTreeMap;
 use std::io::Cursor;
+use std::marker::PhantomData;
 use thiserror::Error;
 
 /// Why there is no recording.
@@ -31,40 +34,38 @@ pub enum RecordingError {
     /// The writer refused.
     #[error("the recording cannot be written: {0}")]
     Mcap(#[from] mcap::McapError),
-    /// A message is no JSON.
+    /// A message cannot be written as JSON.
     #[error("a message of the recording cannot be written: {0}")]
     Json(#[from] serde_json::Error),
 }
 
-/// Messages of one topic.
-struct Topic<'a> {
+/// Messages `T` of one topic.
+struct Topic<'a, T> {
     writer: &'a mut Writer<Cursor<Vec<u8>>>,
     channel: u16,
     sequence: u32,
+    message: PhantomData<T>,
 }
 
-impl<'a> Topic<'a> {
-    fn new(
-        writer: &'a mut Writer<Cursor<Vec<u8>>>,
-        topic: &str,
-        schema: (&str, &Value),
-    ) -> Result<Self, RecordingError> {
-        let text = serde_json::to_vec(schema.1)?;
-        let schema = writer.add_schema(schema.0, "jsonschema", &text)?;
+impl<'a, T: Serialize + JsonSchema> Topic<'a, T> {
+    fn new(writer: &'a mut Writer<Cursor<Vec<u8>>>, topic: &str) -> Result<Self, RecordingError> {
+        let text = serde_json::to_vec(&foxglove::schema::<T>())?;
+        let schema = writer.add_schema(&T::schema_name(), "jsonschema", &text)?;
         let channel = writer.add_channel(schema, topic, "json", &BTreeMap::new())?;
         Ok(Self {
             writer,
             channel,
             sequence: 0,
+            message: PhantomData,
         })
     }
 
-    fn write(&mut self, time_ns: u64, message: &Value) -> Result<(), RecordingError> {
+    fn write(&mut self, time: Time, message: &T) -> Result<(), RecordingError> {
         let header = MessageHeader {
             channel_id: self.channel,
             sequence: self.sequence,
-            log_time: time_ns,
-            publish_time: time_ns,
+            log_time: time.nanoseconds(),
+            publish_time: time.nanoseconds(),
         };
         self.sequence += 1;
         let text = serde_json::to_vec(message)?;
@@ -76,7 +77,7 @@ impl<'a> Topic<'a> {
 ///
 /// # Errors
 ///
-/// [`RecordingError`]; none occurs on a healthy machine.
+/// [`RecordingError`]: neither variant is known to occur, since everything is written to memory.
 pub fn record(
     frame: &CheckedFrame<'_>,
     plan: &RobotPlan,
@@ -86,31 +87,29 @@ pub fn record(
     let options = WriteOptions::new().compression(None).library("pomona");
     let mut writer = options.create(Cursor::new(Vec::new()))?;
 
-    let mut cloud = Topic::new(&mut writer, "/cloud", schemas::point_cloud())?;
-    cloud.write(0, &messages::cloud(frame))?;
+    let mut cloud = Topic::<PointCloud>::new(&mut writer, "/cloud")?;
+    cloud.write(Time::default(), &content::cloud(frame))?;
 
     let camera_id = &frame.frame().camera.frame_id;
     let camera = robot_from_camera.transform.isometry();
-    let mut tf = Topic::new(&mut writer, "/tf", schemas::frame_transform())?;
-    tf.write(
-        0,
-        &messages::frame_transform(0.0, &plan.frame_id, camera_id, &camera),
-    )?;
-    let mut begin = 0.0;
-    for (id, approach) in ros::ranked(plan) {
+    let mut tf = Topic::<FrameTransform>::new(&mut writer, "/tf")?;
+    let transform = content::frame_transform(Time::default(), &plan.frame_id, camera_id, &camera);
+    tf.write(transform.timestamp, &transform)?;
+    let mut begin_s = 0.0;
+    for (id, approach) in ranked(plan) {
+        let tool = content::tool_frame(id);
         for sample in approach.path.samples(robot.config().motion.samples) {
-            let time = begin + sample.time_s;
-            let child = format!("tool_{id}");
-            let message = messages::frame_transform(time, &plan.frame_id, &child, &sample.pose());
-            tf.write(messages::nanoseconds(time), &message)?;
+            let time = Time::from_seconds(begin_s + sample.time_s);
+            let transform = content::frame_transform(time, &plan.frame_id, &tool, &sample.pose());
+            tf.write(time, &transform)?;
         }
-        begin += approach.path.duration_s();
+        begin_s += approach.path.duration_s();
     }
 
-    let mut scene = Topic::new(&mut writer, "/scene", schemas::scene_update())?;
-    scene.write(0, &messages::scene(plan, robot))?;
-    let mut grasps = Topic::new(&mut writer, "/grasps", schemas::poses_in_frame())?;
-    grasps.write(0, &messages::grasps(plan, robot))?;
+    let mut scene = Topic::<SceneUpdate>::new(&mut writer, "/scene")?;
+    scene.write(Time::default(), &content::scene(plan, robot))?;
+    let mut grasps = Topic::<PosesInFrame>::new(&mut writer, "/grasps")?;
+    grasps.write(Time::default(), &content::grasps(plan, robot))?;
     writer.finish()?;
     Ok(writer.into_inner().into_inner())
 }

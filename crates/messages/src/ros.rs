@@ -9,24 +9,30 @@
 //! those of the wrist link, which is what arms are commanded by; lengths in metres, in the
 //! robot's frame.
 
-mod messages;
+mod geometry;
+mod moveit;
 mod yaml;
 
-pub use messages::{
-    CollisionObject, Duration, Grasp, GripperTranslation, Header, JointTrajectory,
-    JointTrajectoryPoint, Mesh, ObjectType, Plane, PlanningScene, PlanningSceneWorld, Point,
-    Polygon, Pose, PoseArray, PoseStamped, Quaternion, SolidPrimitive, Time, Vector3,
+pub use geometry::{
+    Duration, Header, Point, Polygon, Pose, PoseArray, PoseStamped, Quaternion, Time, Vector3,
     Vector3Stamped,
+};
+pub use moveit::{
+    CollisionObject, Grasp, GripperTranslation, JointTrajectory, JointTrajectoryPoint, Mesh,
+    ObjectType, Plane, PlanningScene, PlanningSceneWorld, SolidPrimitive,
 };
 pub use yaml::to_yaml;
 
-use nalgebra::{Isometry3, UnitQuaternion};
+use crate::order::ranked;
+use crate::pose::along_z;
+use nalgebra::Isometry3;
 use pomona::RobotPlan;
 use pomona_approach::{Approach, ApproachConfig};
 
-/// One file: its name and its text.
+/// One message as a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct File {
+#[non_exhaustive]
+pub struct MessageFile {
     /// Name, such as `ros-grasp-3.yaml`.
     pub name: String,
     /// The message in YAML.
@@ -35,12 +41,12 @@ pub struct File {
 
 /// All messages of a plan as files.
 ///
-/// `ros-grasps.yaml` (`geometry_msgs/PoseArray`: the grasps in the order of picking),
+/// `ros-grasps.yaml` (`geometry_msgs/PoseArray`: the grasps in the picking order),
 /// `ros-scene.yaml` (`moveit_msgs/PlanningScene`, a diff that adds apples and branches), and for each
 /// ranked pick with id N `ros-pregrasp-N.yaml` and `ros-pose-N.yaml` (`geometry_msgs/PoseStamped`) and
 /// `ros-grasp-N.yaml` (`moveit_msgs/Grasp`).
-pub fn files(plan: &RobotPlan, config: &ApproachConfig) -> Vec<File> {
-    let file = |name: &str, text: String| File {
+pub fn files(plan: &RobotPlan, config: &ApproachConfig) -> Vec<MessageFile> {
+    let file = |name: &str, text: String| MessageFile {
         name: format!("ros-{name}.yaml"),
         text,
     };
@@ -58,15 +64,7 @@ pub fn files(plan: &RobotPlan, config: &ApproachConfig) -> Vec<File> {
     files
 }
 
-/// The picks' ids and approaches in the order of picking.
-pub fn ranked(plan: &RobotPlan) -> impl Iterator<Item = (usize, &Approach)> {
-    plan.order.ranks.iter().filter_map(|rank| {
-        let approach = plan.order.approaches.get(rank.target)?.as_ref().ok()?;
-        Some((*plan.targets.get(rank.target)?, approach))
-    })
-}
-
-/// The wrist's poses at the apples, in the order of picking.
+/// The wrist's poses at the apples, in the picking order.
 pub fn grasps(plan: &RobotPlan, config: &ApproachConfig) -> PoseArray {
     let poses = ranked(plan).map(|(_, a)| Pose::from(&config.gripper.wrist_pose(&a.grasp)));
     PoseArray {
@@ -86,7 +84,7 @@ pub fn pose_stamped(plan: &RobotPlan, pose: &Isometry3<f64>) -> PoseStamped {
 /// A `MoveIt` grasp of the pick with this id.
 ///
 /// The postures move one joint, `gripper`, whose position is the opening in metres: rename and
-/// scale it to the gripper's own. The quality is the slack of the clearance over its cutoff, 0 to 1.
+/// scale it to that of your gripper. The quality is the slack of the clearance over its cutoff, 0 to 1.
 pub fn grasp(plan: &RobotPlan, id: usize, approach: &Approach, config: &ApproachConfig) -> Grasp {
     let along: [f64; 3] = approach.direction.vector().into();
     let radius = plan
@@ -100,7 +98,7 @@ pub fn grasp(plan: &RobotPlan, id: usize, approach: &Approach, config: &Approach
             vector: Vector3::from(along.map(|c| sign * c)),
         },
         desired_distance: distance,
-        // The way is known to be free over its whole length, and to no less an apple comes off.
+        // The path is free over its whole length, and a shorter one does not detach an apple.
         min_distance: distance,
     };
     let posture = |opening: f64| JointTrajectory {
@@ -128,28 +126,22 @@ pub fn grasp(plan: &RobotPlan, id: usize, approach: &Approach, config: &Approach
 pub fn planning_scene(plan: &RobotPlan) -> PlanningScene {
     let mut collision_objects = Vec::new();
     for (apple, id) in plan.scene.apples().iter().zip(&plan.apples) {
-        let place = Isometry3::translation(apple.center.x, apple.center.y, apple.center.z);
+        let pose = Isometry3::from_parts(apple.center.coords.into(), nalgebra::one());
         collision_objects.push(CollisionObject::solid(
             header(plan),
             format!("apple_{id}"),
-            Pose::from(&place),
+            Pose::from(&pose),
             SolidPrimitive::sphere(apple.radius),
         ));
     }
     for (branch, id) in plan.scene.branches().iter().zip(&plan.branches) {
-        let along = branch.segment.end - branch.segment.start;
-        // Cylinders stand along z; a half turn about x where the branch points straight down.
-        let rotation = UnitQuaternion::rotation_between(&nalgebra::Vector3::z(), &along)
-            .unwrap_or_else(|| {
-                UnitQuaternion::from_axis_angle(&nalgebra::Vector3::x_axis(), std::f64::consts::PI)
-            });
-        let middle = nalgebra::center(&branch.segment.start, &branch.segment.end);
-        let place = Isometry3::from_parts(middle.coords.into(), rotation);
+        let (pose, length) = along_z(&branch.segment.start, &branch.segment.end);
         collision_objects.push(CollisionObject::solid(
             header(plan),
             format!("branch_{id}"),
-            Pose::from(&place),
-            SolidPrimitive::cylinder(along.norm() + 2.0 * branch.radius, branch.radius),
+            Pose::from(&pose),
+            // A branch has hemispheres at its ends, which the cylinder covers.
+            SolidPrimitive::cylinder(length + 2.0 * branch.radius, branch.radius),
         ));
     }
     PlanningScene {

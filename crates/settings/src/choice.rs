@@ -1,19 +1,3 @@
-/// One word that a setting may be.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Choice {
-    /// The word.
-    pub name: &'static str,
-    /// The lines of its documentation.
-    pub docs: &'static [&'static str],
-}
-
-impl Choice {
-    /// What it stands for.
-    pub fn meaning(&self) -> String {
-        crate::setting::joined(self.docs)
-    }
-}
-
 /// Declares an enum whose values are words: in files of settings, on the command line, in records.
 ///
 /// ```

@@ -1,5 +1,20 @@
-use crate::setting::joined;
-use crate::{Setting, Settings};
+use crate::kind::joined;
+use crate::{ConfigError, Setting};
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+
+/// A struct that [`settings!`](crate::settings) declares.
+pub trait Settings: Default + Serialize + DeserializeOwned {
+    /// Adds its settings, whose paths start with `prefix`, to the description.
+    fn describe(prefix: &str, description: &mut Description);
+
+    /// Checks every setting; `prefix` goes before their names.
+    ///
+    /// # Errors
+    ///
+    /// [`ConfigError::Value`] for the first one that breaks a rule.
+    fn check(&self, prefix: &str) -> Result<(), ConfigError>;
+}
 
 /// A section of settings.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -1,6 +1,4 @@
-use crate::{ConfigError, Description, Kind};
-use serde::Serialize;
-use serde::de::DeserializeOwned;
+use crate::Kind;
 
 /// A type that a setting may have.
 pub trait Value {
@@ -14,19 +12,6 @@ pub trait Value {
     fn numbers(&self) -> Option<Vec<f64>> {
         None
     }
-}
-
-/// A struct that [`settings!`](crate::settings) declares.
-pub trait Settings: Default + Serialize + DeserializeOwned {
-    /// Adds its settings, whose paths start with `prefix`, to the description.
-    fn describe(prefix: &str, description: &mut Description);
-
-    /// Checks every setting; `prefix` goes before their names.
-    ///
-    /// # Errors
-    ///
-    /// [`ConfigError::Value`] for the first one that breaks a rule.
-    fn check(&self, prefix: &str) -> Result<(), ConfigError>;
 }
 
 impl Value for bool {

@@ -1,6 +1,6 @@
-//! Several frames of one tree: places that are better than each frame's, sway told from moved fruit, and what is refused.
+//! What `fuse` makes of trees whose truth is known.
 
-#![allow(
+#![expect(
     clippy::unwrap_used,
     reason = "a test that cannot go on should fail where it stands"
 )]

@@ -1,6 +1,6 @@
 //! Rendered pieces of an orchard, seen from several sides.
 
-#![allow(
+#![expect(
     clippy::unwrap_used,
     reason = "a test that cannot go on should fail where it stands"
 )]
@@ -15,10 +15,6 @@ pub(crate) struct Views {
     pub(crate) frames: Vec<(FrameAnswer, RobotFromCamera)>,
     pub(crate) centers: Vec<Vector3<f64>>,
     /// The true direction of each apple that a frame boxes.
-    #[allow(
-        dead_code,
-        reason = "not every program that shares this file asks for it"
-    )]
     pub(crate) directions: Vec<Option<Vector3<f64>>>,
 }
 

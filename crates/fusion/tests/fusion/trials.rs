@@ -1,20 +1,19 @@
-//! Several frames of one tree: places that are better than each frame's, sway told from moved fruit, and what is refused.
+//! Fusion of drawn and rendered trees: positions better than each frame's, sway distinguished from moved fruit, refusals.
 
 use crate::drawn_tree::{Trial, View, still};
 use crate::orchard_views::views;
-use nalgebra::{Matrix3, Matrix6, Vector3};
+use nalgebra::{Matrix6, Vector3};
 use pomona::{FrameAnswer, RobotFromCamera};
 use pomona_fusion::{
-    DirectionUse, FusedStatus, Fusion, FusionConfig, FusionError, PlaceUse, PosedAnswer, fuse,
+    DirectionUse, FusedRecord, FusedStatus, FusedTree, FusionConfig, FusionError, PosedAnswer,
+    PositionUse, fuse,
 };
+use pomona_transforms::{Position, RobotFrame};
 
-fn fused(frames: &[(FrameAnswer, RobotFromCamera)], config: &FusionConfig) -> Fusion {
+fn fused(frames: &[(FrameAnswer, RobotFromCamera)], config: &FusionConfig) -> FusedTree {
     let posed: Vec<PosedAnswer> = frames
         .iter()
-        .map(|(answer, robot_from_camera)| PosedAnswer {
-            answer,
-            robot_from_camera,
-        })
+        .map(|(answer, robot_from_camera)| PosedAnswer::new(answer, robot_from_camera))
         .collect();
     fuse(&posed, config).unwrap()
 }
@@ -30,7 +29,7 @@ fn exact() -> FusionConfig {
 }
 
 #[test]
-fn fused_places_are_better_than_each_frame_and_their_covariance_is_true() {
+fn fused_positions_are_better_than_each_frame_and_their_covariance_is_true() {
     let (mut single, mut together, mut squares, mut angles, mut singles) =
         (0.0, 0.0, 0.0, 0.0, 0.0);
     let mut count = 0.0;
@@ -54,20 +53,20 @@ fn fused_places_are_better_than_each_frame_and_their_covariance_is_true() {
             })
             .collect();
         let fusion = fused(&frames, &config);
-        assert_eq!(fusion.record.apples.len(), tree.len());
-        for (apple, truth) in fusion.record.apples.iter().zip(&tree) {
-            assert_eq!(apple.sightings.len(), 3);
-            let error = Vector3::from(apple.center) - truth.center;
+        assert_eq!(fusion.apples.len(), tree.len());
+        for (apple, truth) in fusion.apples.iter().zip(&tree) {
+            assert_eq!(apple.observations.len(), 3);
+            let error = apple.center.position.point().coords - truth.center;
             together += error.norm();
-            squares += error.dot(
-                &(Matrix3::from(apple.center_covariance)
-                    .try_inverse()
-                    .unwrap()
-                    * error),
-            );
-            angles += Vector3::from(apple.direction.unwrap()).angle(&truth.direction);
+            squares += error.dot(&(apple.center.covariance_m2.try_inverse().unwrap() * error));
+            angles += apple
+                .direction
+                .unwrap()
+                .direction
+                .vector()
+                .angle(&truth.direction);
             for (answer, pose) in &frames {
-                let own = &answer.apples[apple.sightings[0].pick];
+                let own = &answer.apples[apple.observations[0].pick];
                 let center = pose.transform.position(&own.apple.unwrap().center);
                 single += (center.point().coords - truth.center).norm() / 3.0;
                 let direction = pose.transform.direction(&own.pick.unwrap().direction);
@@ -94,7 +93,7 @@ fn fused_places_are_better_than_each_frame_and_their_covariance_is_true() {
 }
 
 #[test]
-fn sway_is_no_movement_and_is_measured() {
+fn sway_is_measured_and_not_taken_for_movement() {
     let mut off = 0.0;
     for seed in 0..20 {
         let mut trial = Trial::new(100 + seed);
@@ -107,15 +106,14 @@ fn sway_is_no_movement_and_is_measured() {
         let fusion = fused(&frames, &exact());
         assert!(
             fusion
-                .record
                 .apples
                 .iter()
-                .all(|a| a.moved.is_none() && a.sightings.len() == 2)
+                .all(|a| a.movement.is_none() && a.observations.len() == 2)
         );
-        let shift = fusion.record.frames[1].shift.as_ref().unwrap();
-        off += (Vector3::from(shift.by) - sway).norm() / 20.0;
+        let shift = fusion.frames[1].shift.as_ref().unwrap();
+        off += (shift.by - sway).norm() / 20.0;
         assert!(shift.significant || sway.norm() < 0.01);
-        assert_eq!(fusion.record.frames[1].shared, 10);
+        assert_eq!(fusion.frames[1].shared, 10);
     }
     assert!(off < 0.003, "{off}");
 }
@@ -136,27 +134,26 @@ fn the_apple_that_moved_is_found_among_those_that_swayed() {
         ];
         let fusion = fused(&frames, &exact());
         let moved: Vec<_> = fusion
-            .record
             .apples
             .iter()
-            .filter(|a| a.moved.is_some())
+            .filter(|a| a.movement.is_some())
             .collect();
         assert_eq!(moved.len(), 1, "seed {seed}");
-        let movement = moved[0].moved.as_ref().unwrap();
-        assert_eq!(moved[0].sightings[0].pick, 3);
+        let movement = moved[0].movement.as_ref().unwrap();
+        assert_eq!(moved[0].observations[0].pick, 3);
         assert_eq!(movement.frames, [0]);
-        let error = (Vector3::from(movement.by) - way).norm();
+        let error = (movement.by - way).norm();
         assert!(error < 0.02, "{movement:?}");
         off += error / 40.0;
-        assert_eq!(moved[0].sightings[0].direction, DirectionUse::Stale);
+        assert_eq!(moved[0].observations[0].direction_use, DirectionUse::Stale);
         assert!(moved[0].reason.contains("moved"));
-        assert_eq!(fusion.record.apples.len(), 8);
+        assert_eq!(fusion.apples.len(), 8);
     }
     assert!(off < 0.007, "{off}");
 }
 
 #[test]
-fn apples_at_rest_are_called_moved_no_oftener_than_the_rate_says() {
+fn apples_at_rest_are_called_moved_no_more_often_than_the_rate_says() {
     // At a rate of 1 %, so that it can be counted.
     let config = FusionConfig {
         moved_rate: 0.01,
@@ -179,10 +176,9 @@ fn apples_at_rest_are_called_moved_no_oftener_than_the_rate_says() {
         let fusion = fused(&frames, &config);
         tests += tree.len();
         moved += fusion
-            .record
             .apples
             .iter()
-            .filter(|a| a.moved.is_some())
+            .filter(|a| a.movement.is_some())
             .count();
     }
     // 24 of 2400 are expected; 40 is three standard deviations more.
@@ -197,7 +193,7 @@ fn apples_at_rest_are_called_moved_no_oftener_than_the_rate_says() {
             trial.answer("b", &tree, &View { sway, ..still(0.4) }),
         ];
         let fusion = fused(&frames, &FusionConfig::default());
-        fusion.record.apples.iter().any(|a| a.moved.is_some())
+        fusion.apples.iter().any(|a| a.movement.is_some())
     });
     assert_eq!(default.count(), 0);
 }
@@ -211,25 +207,20 @@ fn apples_of_one_frame_are_kept_and_never_joined_with_their_own() {
         trial.answer("b", &tree[2..], &still(0.3)),
     ];
     let fusion = fused(&frames, &exact());
-    let seen: Vec<usize> = fusion
-        .record
-        .apples
-        .iter()
-        .map(|a| a.sightings.len())
-        .collect();
+    let seen: Vec<usize> = fusion.apples.iter().map(|a| a.observations.len()).collect();
     assert_eq!(seen, [1, 1, 2, 2, 1, 1]);
-    assert!(fusion.record.apples[0].reason.contains("seen in 1 frame"));
-    // The same place twice in one frame stays two apples.
+    assert!(fusion.apples[0].reason.contains("seen in 1 frame"));
+    // The same position twice in one frame stays two apples.
     let twice = [tree[0], tree[0]];
     let frames = [
         trial.answer("a", &twice, &still(-0.3)),
         trial.answer("b", &tree[..1], &still(0.3)),
     ];
     let fusion = fused(&frames, &exact());
-    for apple in &fusion.record.apples {
-        let mut frames: Vec<usize> = apple.sightings.iter().map(|s| s.frame).collect();
+    for apple in &fusion.apples {
+        let mut frames: Vec<usize> = apple.observations.iter().map(|s| s.frame).collect();
         frames.dedup();
-        assert_eq!(frames.len(), apple.sightings.len());
+        assert_eq!(frames.len(), apple.observations.len());
     }
 }
 
@@ -245,8 +236,8 @@ fn a_direction_that_contradicts_is_dropped_by_name() {
         trial.answer("c", &tree, &still(0.4)),
     ];
     let fusion = fused(&frames, &exact());
-    let apple = &fusion.record.apples[1];
-    let uses: Vec<_> = apple.sightings.iter().map(|s| s.direction).collect();
+    let apple = &fusion.apples[1];
+    let uses: Vec<_> = apple.observations.iter().map(|s| s.direction_use).collect();
     assert_eq!(
         uses,
         [
@@ -261,10 +252,10 @@ fn a_direction_that_contradicts_is_dropped_by_name() {
         "{}",
         apple.reason
     );
-    assert!(apple.confidence.unwrap() < fusion.record.apples[0].confidence.unwrap());
+    assert!(apple.confidence.unwrap() < fusion.apples[0].confidence.unwrap());
     let two = fused(&frames[..2], &exact());
-    assert_eq!(two.record.apples[1].status, FusedStatus::Contradiction);
-    assert!(two.record.apples[1].direction.is_none());
+    assert_eq!(two.apples[1].status, FusedStatus::Contradiction);
+    assert!(two.apples[1].direction.is_none());
 }
 
 #[test]
@@ -281,12 +272,12 @@ fn a_camera_at_rest_shares_its_error_and_the_same_input_gives_the_same_bytes() {
     };
     let frames = [(first, pose.clone()), (second, pose)];
     let fusion = fused(&frames, &exact());
-    let variance = Matrix3::from(fusion.record.apples[0].center_covariance).trace() / 3.0;
+    let variance = fusion.apples[0].center.covariance_m2.trace() / 3.0;
     assert!(
         variance > 0.004_f64.powi(2),
         "the pose's error does not average out: {variance}"
     );
-    let text = |f: &Fusion| serde_json::to_string(&f.record).unwrap();
+    let text = |tree: &FusedTree| serde_json::to_string(&FusedRecord::from(tree)).unwrap();
     assert_eq!(text(&fusion), text(&fused(&frames, &exact())));
 }
 
@@ -299,10 +290,7 @@ fn what_contradicts_itself_is_refused_by_name() {
     let run = |frames: &[(FrameAnswer, RobotFromCamera)]| {
         let posed: Vec<PosedAnswer> = frames
             .iter()
-            .map(|(answer, robot_from_camera)| PosedAnswer {
-                answer,
-                robot_from_camera,
-            })
+            .map(|(answer, robot_from_camera)| PosedAnswer::new(answer, robot_from_camera))
             .collect();
         fuse(&posed, &FusionConfig::default()).unwrap_err()
     };
@@ -336,46 +324,50 @@ fn frames_without_apples_are_no_error() {
         trial.answer("a", &[], &still(-0.3)),
         trial.answer("b", &[], &still(0.3)),
     ];
-    assert!(fused(&frames, &exact()).record.apples.is_empty());
+    assert!(fused(&frames, &exact()).apples.is_empty());
 }
 
 #[test]
 fn rendered_orchards_from_three_poses() {
     let (mut together, mut single, mut count) = (0.0, 0.0, 0.0);
-    let mut moved = 0;
+    let (mut moved, mut answered, mut right) = (0, 0, 0);
     for seed in 0..6 {
         let scene = views(3000 + seed);
         let fusion = fused(&scene.frames, &FusionConfig::default());
         moved += fusion
-            .record
             .apples
             .iter()
-            .filter(|a| a.moved.is_some())
+            .filter(|a| a.movement.is_some())
             .count();
-        for truth in &scene.centers {
-            let error = |center: [f64; 3]| (Vector3::from(center) - truth).norm();
+        for (truth, true_direction) in scene.centers.iter().zip(&scene.directions) {
+            let error = |center: Position<RobotFrame>| (center.point().coords - truth).norm();
             let near = fusion
-                .record
                 .apples
                 .iter()
-                .filter(|a| a.sightings.len() > 1 && error(a.center) < 0.03);
+                .filter(|a| a.observations.len() > 1 && error(a.center.position) < 0.03);
             for apple in near {
                 let of_frames: Vec<f64> = apple
-                    .sightings
+                    .observations
                     .iter()
                     .map(|s| {
                         let (answer, pose) = &scene.frames[s.frame];
                         let center = answer.apples[s.pick].apple.unwrap().center;
-                        error(pose.transform.position(&center).point().into())
+                        error(pose.transform.position(&center))
                     })
                     .collect();
-                together += error(apple.center);
+                together += error(apple.center.position);
                 single += of_frames.iter().sum::<f64>() / of_frames.len() as f64;
                 count += 1.0;
+                if let (Some(fused), Some(true_direction)) = (apple.direction, true_direction) {
+                    let angle = fused.direction.vector().angle(true_direction);
+                    answered += 1;
+                    right += usize::from(angle < 20_f64.to_radians());
+                }
             }
         }
     }
     assert!(count >= 6.0, "{count}");
+    assert!(answered >= 6 && right == answered, "{right} of {answered}");
     assert_eq!(moved, 0);
     assert!(
         together < single,
@@ -386,7 +378,7 @@ fn rendered_orchards_from_three_poses() {
 }
 
 #[test]
-fn a_place_seen_badly_is_a_misfit_and_no_movement() {
+fn a_position_that_is_hardly_visible_is_a_misfit_and_no_movement() {
     let mut trial = Trial::new(200);
     let tree = trial.tree(8);
     let mut after = tree.clone();
@@ -395,13 +387,13 @@ fn a_place_seen_badly_is_a_misfit_and_no_movement() {
     let mut second = trial.answer("b", &after, &still(0.4));
     second.0.apples[3].apple.as_mut().unwrap().visible_share = Some(0.1);
     let fusion = fused(&[first, second], &exact());
-    assert_eq!(fusion.record.apples.len(), 8);
-    let apple = &fusion.record.apples[3];
+    assert_eq!(fusion.apples.len(), 8);
+    let apple = &fusion.apples[3];
     assert!(
-        apple.moved.is_none() && apple.reason.contains("misfit"),
+        apple.movement.is_none() && apple.reason.contains("misfit"),
         "{}",
         apple.reason
     );
-    assert_eq!(apple.sightings[1].place, PlaceUse::Misfit);
-    assert!((Vector3::from(apple.center) - tree[3].center).norm() < 0.012);
+    assert_eq!(apple.observations[1].position_use, PositionUse::Misfit);
+    assert!((apple.center.position.point().coords - tree[3].center).norm() < 0.012);
 }

@@ -1,12 +1,17 @@
+//! YAML as the tools of ROS read it.
+
 use serde::Serialize;
 use serde_json::Value;
 use std::fmt::Write;
 
+/// Decimals of a float: a nanometre, a billionth of a radian.
+const DECIMALS: usize = 9;
+
 /// A message as YAML: block style, lists of numbers in one line, fields by their names' order.
 ///
 /// Every float has a point and no exponent, nine decimals: YAML 1.1, which ROS's tools read, takes
-/// `1e-05` for a string. Strings stand in double quotes. What is not finite, and what is no map at
-/// all, does not occur in a message; it becomes `.nan` or an empty text.
+/// `1e-05` for a string. Strings are in double quotes. Messages contain no numbers that are not finite; one would become
+/// `.nan`.
 pub fn to_yaml(message: &impl Serialize) -> String {
     let mut text = String::new();
     if let Ok(value) = serde_json::to_value(message) {
@@ -56,7 +61,7 @@ fn inline(value: &Value) -> String {
         Value::Number(number) if number.is_f64() => number.as_f64().map_or_else(
             || ".nan".to_owned(),
             |number| {
-                let text = format!("{number:.9}");
+                let text = format!("{number:.DECIMALS$}");
                 let short = text.trim_end_matches('0');
                 match short.strip_suffix('.') {
                     Some("-0") => "0.0".to_owned(),

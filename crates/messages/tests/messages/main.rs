@@ -1,6 +1,6 @@
 //! Messages against the definitions of ROS 2, recordings against their schemas and another reader.
 
-#![allow(
+#![expect(
     clippy::unwrap_used,
     reason = "a test that cannot go on should fail where it stands"
 )]

@@ -169,7 +169,7 @@ fn check(value: &Value, kind: &str, place: &str) {
 fn messages_have_the_fields_of_their_definitions() {
     let config = config();
     let (_, plan) = planned(&lab(), &config);
-    let (id, approach) = ros::ranked(&plan).next().unwrap();
+    let (id, approach) = pomona_messages::ranked(&plan).next().unwrap();
     let value = |m: Result<Value, serde_json::Error>| m.unwrap();
     let grasp = ros::grasp(&plan, id, approach, &config);
     check(&value(serde_json::to_value(&grasp)), "Grasp", "grasp");

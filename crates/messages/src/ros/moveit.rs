@@ -1,130 +1,12 @@
-//! The messages, each with all the fields of its definition, unless it says otherwise.
+//! Messages of `trajectory_msgs`, `shape_msgs`, `object_recognition_msgs` and `moveit_msgs`, each with all the fields of
+//! its definition, unless it says otherwise.
 
+use super::geometry::{Duration, Header, Polygon, Pose, PoseStamped, Vector3Stamped};
 use nalgebra::Isometry3;
 use serde::Serialize;
 
-/// `builtin_interfaces/Time`.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Time {
-    /// Seconds.
-    pub sec: i32,
-    /// Nanoseconds.
-    pub nanosec: u32,
-}
-
-/// `builtin_interfaces/Duration`.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Duration {
-    /// Seconds.
-    pub sec: i32,
-    /// Nanoseconds.
-    pub nanosec: u32,
-}
-
-/// `std_msgs/Header`.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Header {
-    /// Time.
-    pub stamp: Time,
-    /// Frame of the data.
-    pub frame_id: String,
-}
-
-/// `geometry_msgs/Point`, metres.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Point {
-    /// x.
-    pub x: f64,
-    /// y.
-    pub y: f64,
-    /// z.
-    pub z: f64,
-}
-
-/// `geometry_msgs/Vector3`.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Vector3 {
-    /// x.
-    pub x: f64,
-    /// y.
-    pub y: f64,
-    /// z.
-    pub z: f64,
-}
-
-impl From<[f64; 3]> for Vector3 {
-    fn from([x, y, z]: [f64; 3]) -> Self {
-        Self { x, y, z }
-    }
-}
-
-/// `geometry_msgs/Quaternion`.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Quaternion {
-    /// x.
-    pub x: f64,
-    /// y.
-    pub y: f64,
-    /// z.
-    pub z: f64,
-    /// w.
-    pub w: f64,
-}
-
-/// `geometry_msgs/Pose`.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Pose {
-    /// Place.
-    pub position: Point,
-    /// Orientation.
-    pub orientation: Quaternion,
-}
-
-impl From<&Isometry3<f64>> for Pose {
-    fn from(pose: &Isometry3<f64>) -> Self {
-        let (t, q) = (pose.translation.vector, pose.rotation.coords);
-        Self {
-            position: Point {
-                x: t.x,
-                y: t.y,
-                z: t.z,
-            },
-            orientation: Quaternion {
-                x: q.x,
-                y: q.y,
-                z: q.z,
-                w: q.w,
-            },
-        }
-    }
-}
-
-/// `geometry_msgs/PoseStamped`.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct PoseStamped {
-    /// Frame and time.
-    pub header: Header,
-    /// The pose.
-    pub pose: Pose,
-}
-
-/// `geometry_msgs/PoseArray`.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct PoseArray {
-    /// Frame and time.
-    pub header: Header,
-    /// The poses.
-    pub poses: Vec<Pose>,
-}
-
-/// `geometry_msgs/Vector3Stamped`.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Vector3Stamped {
-    /// Frame and time.
-    pub header: Header,
-    /// The vector.
-    pub vector: Vector3,
-}
+/// When a gripper has reached the position of its only trajectory point, seconds after the start.
+const POSTURE_TIME_S: i32 = 1;
 
 /// `trajectory_msgs/JointTrajectoryPoint`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -142,14 +24,17 @@ pub struct JointTrajectoryPoint {
 }
 
 impl JointTrajectoryPoint {
-    /// One joint at a position, after a second.
+    /// One joint at a position, a second after the start.
     pub fn at(position: f64) -> Self {
         Self {
             positions: vec![position],
             velocities: Vec::new(),
             accelerations: Vec::new(),
             effort: Vec::new(),
-            time_from_start: Duration { sec: 1, nanosec: 0 },
+            time_from_start: Duration {
+                sec: POSTURE_TIME_S,
+                nanosec: 0,
+            },
         }
     }
 }
@@ -168,7 +53,7 @@ pub struct JointTrajectory {
 /// `moveit_msgs/GripperTranslation`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct GripperTranslation {
-    /// Whereto.
+    /// In which direction.
     pub direction: Vector3Stamped,
     /// How far, metres.
     pub desired_distance: f64,
@@ -210,17 +95,10 @@ pub struct ObjectType {
     pub db: String,
 }
 
-/// `geometry_msgs/Polygon`.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Polygon {
-    /// None here.
-    pub points: Vec<Point>,
-}
-
 /// `shape_msgs/SolidPrimitive`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SolidPrimitive {
-    /// 2 for a sphere, 3 for a cylinder.
+    /// [`SPHERE`](Self::SPHERE) or [`CYLINDER`](Self::CYLINDER).
     #[serde(rename = "type")]
     pub kind: u8,
     /// Radius of a sphere; height and radius of a cylinder along z.
@@ -230,6 +108,11 @@ pub struct SolidPrimitive {
 }
 
 impl SolidPrimitive {
+    /// Type of a sphere.
+    pub const SPHERE: u8 = 2;
+    /// Type of a cylinder.
+    pub const CYLINDER: u8 = 3;
+
     fn new(kind: u8, dimensions: Vec<f64>) -> Self {
         let polygon = Polygon { points: Vec::new() };
         Self {
@@ -241,12 +124,12 @@ impl SolidPrimitive {
 
     /// A sphere of this radius, metres.
     pub fn sphere(radius: f64) -> Self {
-        Self::new(2, vec![radius])
+        Self::new(Self::SPHERE, vec![radius])
     }
 
     /// A cylinder along z, metres.
     pub fn cylinder(height: f64, radius: f64) -> Self {
-        Self::new(3, vec![height, radius])
+        Self::new(Self::CYLINDER, vec![height, radius])
     }
 }
 
@@ -286,11 +169,14 @@ pub struct CollisionObject {
     pub subframe_names: Vec<String>,
     /// None here.
     pub subframe_poses: Vec<Pose>,
-    /// 0: add.
+    /// [`ADD`](Self::ADD).
     pub operation: u8,
 }
 
 impl CollisionObject {
+    /// Operation that adds the object to the scene.
+    pub const ADD: u8 = 0;
+
     /// An object of one shape, to be added.
     pub fn solid(header: Header, id: String, pose: Pose, shape: SolidPrimitive) -> Self {
         Self {
@@ -309,7 +195,7 @@ impl CollisionObject {
             plane_poses: Vec::new(),
             subframe_names: Vec::new(),
             subframe_poses: Vec::new(),
-            operation: 0,
+            operation: Self::ADD,
         }
     }
 }

@@ -1,11 +1,11 @@
 //! Fits the confidence of the method `robust` to scenes: `cargo xtask fit-confidence`.
 //!
 //! A logistic model of 'the direction is at most 20 degrees off' by what the answers' evidence holds, fitted by
-//! iteratively reweighted least squares (McCullagh and Nelder 1989, section 4.4) with a weak Gaussian prior. Prints the
+//! iteratively reweighted least squares (`McCullagh` and Nelder 1989, section 4.4) with a weak Gaussian prior. Prints the
 //! coefficients beside those in use, and how both do in a cross-validation over the scenes.
 
-use nalgebra::{SMatrix, SVector};
-use pomona::{CONFIDENCE_FEATURES, CONFIDENCE_MODEL, Config, Picker};
+use nalgebra::{SMatrix, SVector, Vector3};
+use pomona::{CONFIDENCE_FEATURES, CONFIDENCE_MODEL, CheckedFrame, Config, Picker};
 use pomona_evaluate::Subject;
 use rayon::prelude::*;
 
@@ -107,14 +107,15 @@ fn of_scene(
     scene: usize,
 ) -> Result<Vec<Observation>, Box<dyn std::error::Error>> {
     let made = subject.load()?;
-    let answers = picker.pick(&made.frame, 0, None)?;
+    let frame = CheckedFrame::new(&made.frame)?;
+    let answers = picker.pick(&frame, 0, None)?;
     let observation = |answer: &pomona::AppleAnswer| {
         let features = answer.evidence.confidence_features?;
         let mut truths = made.truth.apples.iter();
         let truth = truths.find(|truth| truth.bounds.name == answer.bounds.name)?;
         let direction = truth.direction?;
         let pick = answer.pick.as_ref()?;
-        let angle = pick.direction.vector().angle(&direction.into());
+        let angle = pick.direction.vector().angle(&Vector3::from(direction));
         Some(Observation {
             scene,
             features: features.into(),

@@ -55,7 +55,7 @@ impl ObjectSection {
     }
 }
 
-/// How to cross_sections.
+/// How to `cross_sections`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SectionSpacing {
     /// To either side of the base, metres.

@@ -4,7 +4,7 @@ use crate::terminal::{FAINT, HEADING, Terminal, one_line};
 use pomona_evaluate::{Alignment, CaliperReport, Evaluation, LabRow, SuiteResult};
 use pomona_statistics::{Proportion, Summary};
 
-/// What stands where nothing is known.
+/// Shown in place of an unknown value.
 pub(super) const UNKNOWN: &str = "-";
 
 /// An evaluation as tables of text.

@@ -5,8 +5,10 @@
 //! sum, so every path computes the same numbers to the last bit. What that costs and yields is in
 //! `docs/performance.md`.
 
+mod kernel;
 mod shell;
 
+pub(crate) use kernel::Kernel;
 pub(crate) use shell::{Radial, Shell};
 
 use crate::Coordinate;
@@ -27,16 +29,6 @@ const GROUP: usize = 8;
 
 /// Multiplied by eight bytes that are 0 or 1, it gathers them in the highest byte, a bit for each.
 const BITS: u64 = 0x0102_0408_1020_4080;
-
-/// A shape made ready to be compared with points at one threshold.
-pub(crate) trait Kernel<T>: Copy {
-    /// Whether a point lies within the threshold; never where something is NaN.
-    fn holds(&self, x: T, y: T, z: T) -> bool;
-
-    /// 1 − (residual/threshold)² of a point; above zero only by rounding where it does not hold, and
-    /// then it is not used.
-    fn gain(&self, x: T, y: T, z: T) -> T;
-}
 
 /// How many points of a block `kernel` holds.
 #[inline]

@@ -1,4 +1,4 @@
-use super::Kernel;
+use super::kernel::Kernel;
 use crate::Coordinate;
 
 /// A way to measure the squared distance of a point from a centre or an axis.

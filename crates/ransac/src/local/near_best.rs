@@ -1,4 +1,4 @@
-use super::{LocalOptimization, Refiner, Scored};
+use super::optimization::{LocalOptimization, Refiner, Scored};
 use crate::{Constraints, Estimator, Scorer};
 
 /// Improves not only each new best model, as `L` does, but at the end also the best hypotheses that

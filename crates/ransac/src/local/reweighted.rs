@@ -1,4 +1,4 @@
-use super::{LocalOptimization, Refiner, Scored};
+use super::optimization::{LocalOptimization, Refiner, Scored};
 use crate::{Constraints, Estimator, Scorer};
 
 /// Refits each new best model with weights that fall with the residual, again and again, as long as
@@ -9,7 +9,7 @@ use crate::{Constraints, Estimator, Scorer};
 /// weights belong to it, w(u) ∝ −gain′(u)/u: [`Tukey::weight`] with the kernel [`Tukey`],
 /// [`Marginal::weight`] with [`Marginal`](crate::Marginal). With weights that belong to another score the
 /// climb ends early, at the first refit that this score likes less. Those of [`Msac`](crate::Msac) are all 1, which
-/// is [`LeastSquares`](super::LeastSquares).
+/// is [`LeastSquares`](crate::LeastSquares).
 ///
 /// The estimator must have a [`refit_weighted`](Estimator::refit_weighted) of its own, or the
 /// weights are ignored.

@@ -1,4 +1,4 @@
-use super::Sampler;
+use super::sampling::Sampler;
 use crate::{Draws, Estimator};
 
 /// What lies near a datum, as the caller knows it: a grid, a tree, rows of an image.
@@ -129,7 +129,7 @@ impl<N, D: Spread> Local<N, D> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::tests::Numbers;
+    use super::super::sampling::tests::Numbers;
     use super::*;
 
     fn within_two(datum: usize, out: &mut Vec<usize>) {

@@ -1,4 +1,4 @@
-use super::Sampler;
+use super::sampling::Sampler;
 use crate::{Draws, Estimator};
 
 /// Which data may stand in a sample beside a first one, as the caller knows it.
@@ -70,7 +70,7 @@ impl<E: Estimator, A: Partners> Sampler<E> for Pairs<A> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::tests::Numbers;
+    use super::super::sampling::tests::Numbers;
     use super::*;
 
     /// Every datum's partners are its multiples up to 12.

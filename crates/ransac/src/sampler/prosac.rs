@@ -1,4 +1,4 @@
-use super::Sampler;
+use super::sampling::{Sampler, distinct};
 use crate::{Draws, Estimator};
 
 /// The best data first: PROSAC (Chum and Matas 2005, doi 10.1109/CVPR.2005.221).
@@ -88,7 +88,7 @@ impl<E: Estimator> Sampler<E> for Prosac {
             (None, data)
         };
         let drawn = sample.len() - usize::from(last.is_some());
-        if !super::distinct(draws, best, &mut sample[..drawn]) {
+        if !distinct(draws, best, &mut sample[..drawn]) {
             return false;
         }
         if let (Some(last), Some(place)) = (last, sample.last_mut()) {
@@ -103,7 +103,7 @@ impl<E: Estimator> Sampler<E> for Prosac {
 
 #[cfg(test)]
 mod tests {
-    use super::super::tests::Numbers;
+    use super::super::sampling::tests::Numbers;
     use super::*;
 
     fn samples(prosac: &Prosac, iterations: std::ops::Range<u64>) -> Vec<[usize; 3]> {

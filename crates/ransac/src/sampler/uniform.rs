@@ -1,4 +1,4 @@
-use super::Sampler;
+use super::sampling::{Sampler, distinct};
 use crate::{Draws, Estimator};
 
 /// Every sample is equally likely.
@@ -7,13 +7,13 @@ pub struct Uniform;
 
 impl<E: Estimator> Sampler<E> for Uniform {
     fn sample(&self, estimator: &E, _: u64, draws: &mut Draws, sample: &mut [usize]) -> bool {
-        super::distinct(draws, estimator.len(), sample)
+        distinct(draws, estimator.len(), sample)
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::tests::Numbers;
+    use super::super::sampling::tests::Numbers;
     use super::*;
 
     #[test]

@@ -1,4 +1,5 @@
-use super::{Kernel, Scorer, fraction};
+use super::kernel::Kernel;
+use super::scoring::{Scorer, fraction};
 use crate::{Estimator, estimator::blocks};
 use std::{error::Error, fmt, ops::Range};
 
@@ -199,8 +200,8 @@ impl<E: Estimator, K: Kernel> Scorer<E> for PerDatum<K> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Quadratic;
     use super::*;
+    use crate::Quadratic;
 
     #[test]
     fn what_makes_no_score_is_refused() {

@@ -15,6 +15,7 @@ mod ci;
 mod deny;
 mod docs;
 mod features;
+mod fit_confidence;
 mod modules;
 mod msrv;
 mod package;
@@ -62,6 +63,8 @@ enum Command {
     Regress(regress::Args),
     /// What each idea of the method `robust` is worth: variants with one of them off
     Ablate(ablate::Args),
+    /// Fits the coefficients of the confidence again, and prints them beside those in use
+    FitConfidence,
     /// Does a copy of the engine's folder build without the rest of the workspace?
     Standalone(standalone::Args),
     /// Do our libraries still suit those who built against their last release?
@@ -81,6 +84,7 @@ fn main() -> ExitCode {
         Command::Bench(args) => bench::run(&args),
         Command::Regress(args) => regress::run(&args),
         Command::Ablate(args) => ablate::run(&args),
+        Command::FitConfidence => fit_confidence::run(),
         Command::Standalone(args) => standalone::run(&args),
         Command::Semver(args) => semver::run(&args),
     };

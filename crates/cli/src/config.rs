@@ -10,14 +10,14 @@ const EXAMPLES: &str = "\
 Examples:
   pomona config > pomona.toml                     the defaults, to be edited
   pomona pick frame --config pomona.toml --out out
-  pomona config --robot > robot.toml              a robot's defaults, for `pick --robot`
-  pomona config --radius-max-mm 60                what a run with these flags uses
+  pomona config --robot > robot.toml              the defaults of a robot, for `pick --robot`
+  pomona config --radius-max-mm 60                the settings of a run with these flags
   pomona config --format json-schema              for editors that check pomona.toml";
 
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct ConfigArguments {
-    /// Print the settings of a robot, for `pomona pick --robot`, in place of those of picking.
+    /// Print the settings of a robot, for `pomona pick --robot`, instead of those of picking.
     #[arg(long)]
     robot: bool,
     /// Print the settings with their values, or what settings there are.

@@ -8,7 +8,7 @@ use pomona_settings::toml::Value;
 use pomona_settings::{set, word_or_value};
 use std::path::PathBuf;
 
-/// Flags that choose settings; later ones of this list win over earlier ones.
+/// Flags that choose settings; later ones of this list take precedence.
 #[derive(Debug, Default, Args)]
 #[command(next_help_heading = "Settings")]
 pub(crate) struct SettingsArguments {
@@ -31,7 +31,7 @@ impl SettingsArguments {
 #[derive(Debug, Default, Args)]
 #[command(next_help_heading = "Settings")]
 pub(crate) struct SettingValues {
-    /// Settings from a TOML file; what it leaves out keeps its default (see `pomona config`).
+    /// Settings from a TOML file; missing ones keep their defaults (see `pomona config`).
     #[arg(long, value_name = "FILE")]
     config: Option<PathBuf>,
     /// Any setting, such as `paper.shell_outer=2.5`; may be repeated.
@@ -43,10 +43,10 @@ pub(crate) struct SettingValues {
     /// Largest radius of a fruit, mm (`fruit.radius_max_m`).
     #[arg(long, value_name = "MM", allow_negative_numbers = true)]
     radius_max_mm: Option<f64>,
-    /// Spheres that the method `paper` tries for each apple.
+    /// Number of sphere hypotheses of the method `paper` for each apple.
     #[arg(long, value_name = "N")]
     sphere_iterations: Option<u64>,
-    /// Lines that the method `paper` tries for each apple.
+    /// Number of line hypotheses of the method `paper` for each apple.
     #[arg(long, value_name = "N")]
     line_iterations: Option<u64>,
 }

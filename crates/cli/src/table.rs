@@ -2,7 +2,7 @@ use crate::summary::plural;
 use crate::terminal::{FAINT, GOOD, HEADING, REFUSED, Terminal, one_line};
 use pomona::{AppleAnswer, FrameAnswer, RobotTarget};
 
-/// What stands where nothing is known.
+/// Shown in place of an unknown value.
 const UNKNOWN: &str = "-";
 
 struct Column {

@@ -1,4 +1,4 @@
-//! Several frames of one tree: what each frame says of an apple, combined in the robot's frame.
+//! Several frames of one tree: the observations of each apple combined in the robot's frame.
 //!
 //! ```
 //! use nalgebra::Isometry3;
@@ -29,31 +29,31 @@
 //!
 //! # Concepts
 //!
-//! - A [`PosedAnswer`] is the pipeline's answer for one frame and the pose of its camera; [`fuse`] combines several into a
-//!   [`FusedTree`].
-//! - An *observation* is one apple as one frame shows it. Observations of one apple form a *track*: they are joined by the
-//!   Mahalanobis distance of their centres, each frame at most once.
-//! - Each frame has a small common *motion*: sway of the tree, or an error of its pose. Motions and positions are estimated
-//!   together; a [`FrameShift`] reports what was found, and [`FusedFrame::correction`] takes it off.
-//! - An apple whose observations contradict each other although its spheres overlap has moved ([`Movement`]), or one of the
-//!   positions is a misfit ([`PositionUse::Misfit`]).
+//! - A [`PosedAnswer`] is the pipeline's answer for one frame and the pose of its camera; [`fuse`] combines several
+//!   into a [`FusedTree`].
+//! - An *observation* is one apple as one frame shows it. Observations of one apple form a *track*: they are joined
+//!   by the Mahalanobis distance of their centres, each frame at most once.
+//! - Each frame has a small common *motion*: sway of the tree, or an error of its pose. Motions and positions are
+//!   estimated together; a [`FrameShift`] reports what was found, and [`FusedFrame::correction`] takes it off.
+//! - An apple whose observations contradict each other although its spheres overlap has moved ([`Movement`]), or one
+//!   of the positions is a misfit ([`PositionUse::Misfit`]).
 //! - The directions of an apple are averaged where they agree; the confidence is the posterior probability of the group
 //!   that agrees. An apple without a direction has a [`FusedStatus`] and a reason in words.
-//! - A [`FusedRecord`] is the form of `fused.json`, made from the result and read back by nothing here. A [`FusedCloud`]
-//!   joins the points of all frames.
+//! - A [`FusedRecord`] is the form of `fused.json`, made from the result and read back by nothing here. A
+//!   [`FusedCloud`] joins the points of all frames.
 //!
 //! Metres and radians, in the robot's frame.
 //!
 //! # Not here
 //!
-//! How one frame is answered (`pomona`), where a camera is (`pomona-calibrate`), registration of clouds: poses come from
-//! the robot.
+//! How one frame is answered (`pomona`), where a camera is (`pomona-calibrate`), registration of clouds: poses come
+//! from the robot.
 //!
 //! # References
 //!
 //! Each method's source is given at its function. The joint estimate: Triggs et al. 2000, doi 10.1007/3-540-44480-7_21.
-//! Association: Bar-Shalom and Fortmann 1988; Neira and Tardós 2001, doi 10.1109/70.976019. Directions: Buss and Fillmore
-//! 2001, doi 10.1145/502122.502124.
+//! Association: Bar-Shalom and Fortmann 1988; Neira and Tardós 2001, doi 10.1109/70.976019. Directions: Buss and
+//! Fillmore 2001, doi 10.1145/502122.502124.
 
 mod answer;
 mod apple;

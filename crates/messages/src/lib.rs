@@ -1,4 +1,4 @@
-//! A robot's plan for a frame as other programs read it: messages of ROS 2 and `MoveIt`, and MCAP recordings.
+//! A robot's plan in the formats of other programs: ROS 2 and `MoveIt` messages, and MCAP recordings.
 //!
 //! ```
 //! use pomona::{ApproachConfig, CheckedFrame, Config, Picker, Robot, RobotFromCamera};

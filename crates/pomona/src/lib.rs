@@ -1,10 +1,10 @@
-//! How to pick each apple of an RGB-D frame: the pipeline that other programs add.
+//! Picking directions for the apples of an RGB-D frame: the pipeline as a library.
 //!
 //! ```
 //! use pomona::{CheckedFrame, Config, Picker};
 //! use pomona_scenes::Suite;
 //!
-//! // A frame of one apple below a branch; `Frame::read` takes one from a folder.
+//! // A frame of one apple below a branch; `Frame::read` reads one from a folder.
 //! let case = Suite::Lab15.cases().find(|case| case.name.contains("x0")).unwrap();
 //! let scene = case.scene();
 //!
@@ -28,9 +28,9 @@
 //! - [`record`] is the form of `picks.json`: made from the answers when they are written, read by no stage.
 //! - Apples are independent of each other, so those of a frame run in parallel;
 //!   the random numbers of one depend on (run seed, frame, apple) and nothing else.
-//! - [`find_apples`] finds the boxes where a frame has none: a `pomona_detect::Detector` sees them in the colour
-//!   image, depth marks those that show no apple and joins those that show the same one, and
-//!   [`Picker::pick_detected`] takes it from there.
+//! - [`find_apples`] detects the boxes of a frame without any: a `pomona_detect::Detector` finds them in the colour
+//!   image, the depth check marks those without an apple and merges those of the same one, and
+//!   [`Picker::pick_detected`] continues from there.
 //! - An apple without a direction is no error: it has a [`Status`] that says why, and what is
 //!   known stays in its answer. [`FallbackConfig`] adds a labelled fallback direction on request.
 //! - A [`Robot`], where there is one, plans how its gripper gets to each apple and in which order, and adds
@@ -40,13 +40,14 @@
 //!
 //! # Frames and units
 //!
-//! Metres and radians; the camera's frame is REP-103 optical (x right, y down, z forward).
-//! With a transform, position and direction are given in the robot's frame as well.
+//! Metres and radians; the camera frame is REP-103 optical (x right, y down, z forward). With a transform, position
+//! and direction are also given in the robot's frame.
 //!
 //! # Not here
 //!
-//! Networks that find apples in a colour image (`pomona-detect`, or the frame's boxes say where they are), several frames
-//! of one tree (`pomona-fusion`), messages of ROS 2 and recordings (`pomona-messages`), drawing, argument parsing.
+//! Networks that find apples in a colour image (`pomona-detect`, or the frame's boxes say where they are), several
+//! frames of one tree (`pomona-fusion`), messages of ROS 2 and recordings (`pomona-messages`), drawing, argument
+//! parsing.
 //!
 //! # References
 //!
@@ -78,11 +79,12 @@ pub use detection::{
 pub use error::PickError;
 pub use frame::CheckedFrame;
 pub use outcome::{
-    AppleAnswer, ApplePlan, BranchCandidate, DirectionSource, Evidence, FallbackDirection,
-    FittedApple, FittedBranch, FrameAnswer, NearestObstacle, PickDirection, PlannedApproach,
-    PlannedTurn, RobotFromCamera, RobotTarget, StageTimes, Status,
+    AppleAnswer, ApplePlan, BranchCandidate, CONFIDENCE_FEATURES, DirectionSource, Evidence,
+    FallbackDirection, FittedApple, FittedBranch, FrameAnswer, NearestObstacle, PickDirection,
+    PlannedApproach, PlannedTurn, RobotFromCamera, RobotTarget, StageTimes, Status,
 };
 pub use picker::Picker;
 pub use pomona_approach::{ApproachConfig, Gripper};
 pub use pomona_settings::ConfigError;
 pub use robot::{Robot, RobotPlan};
+pub use robust::CONFIDENCE_MODEL;

@@ -4,6 +4,7 @@
 //! Every stage of the program reads these; [`record`](crate::record) turns them into the form of `picks.json`.
 
 mod apple;
+mod confidence;
 mod direction;
 mod fitted;
 mod frame;
@@ -12,6 +13,7 @@ mod robot;
 mod status;
 
 pub use apple::{AppleAnswer, Evidence, StageTimes};
+pub use confidence::CONFIDENCE_FEATURES;
 pub(crate) use direction::unit;
 pub use direction::{DirectionSource, FallbackDirection, PickDirection};
 pub use fitted::{BranchCandidate, FittedApple, FittedBranch};

@@ -1,20 +1,23 @@
-//! The method `robust`: a flattened body with priors, branches seen as strips with two ends, and answers that
+//! The method `robust`: a flattened spheroid with priors, branches seen as strips with two ends, and answers that
 //! know how sure they are.
 
 mod apple;
 mod axis;
+mod axis_fit;
 mod blocks;
-mod body;
 mod branch;
 mod confidence;
-mod contour;
-mod lines;
+mod cross_section;
+mod line_hypothesis;
 mod ray;
 mod shell;
+mod silhouette;
 mod sphere;
+mod spheroid;
 mod strips;
-mod view;
-mod walk;
+mod viewpoint;
+
+pub use confidence::CONFIDENCE_MODEL;
 
 use crate::config::{Config, RobustConfig};
 use crate::frame::CheckedFrame;
@@ -24,12 +27,12 @@ use crate::outcome::{
 };
 use apple::{AppleBuffers, AppleSearch, MARGIN_PX, SeenApple};
 use branch::{Candidate, Search};
+use cross_section::CrossSection;
 use pomona_cloud::{PixelBox, PixelWindow};
 use pomona_transforms::{Direction, Position, PositionCovariance};
 use rand_chacha::ChaCha8Rng;
 use shell::{APPLE, Shell};
 use std::time::Instant;
-use walk::Slice;
 
 /// Radii about the centre within which branches are looked for, beside the length along them.
 const SHELL_MARGIN: f64 = 0.4;
@@ -39,7 +42,7 @@ const SHELL_MARGIN: f64 = 0.4;
 pub(crate) struct Scratch {
     apple: AppleBuffers,
     shell: Shell,
-    slices: Vec<(f64, Slice)>,
+    sections: Vec<(f64, CrossSection)>,
 }
 
 /// Answers one box, stage by stage. `scratch` is memory that serves one apple after another.
@@ -62,7 +65,7 @@ pub(crate) fn pick_apple(
     answer
 }
 
-/// Fits the body of the apple whose box is `window`.
+/// Fits the spheroid of the apple whose box is `window`.
 fn find_apple(
     frame: &CheckedFrame<'_>,
     config: &Config,
@@ -103,13 +106,13 @@ fn find_branch(
 ) -> Result<(), Status> {
     let start = Instant::now();
     let noise = DepthNoise::of(config);
-    let body = found.fit.body;
-    let apple = body.sphere();
+    let spheroid = found.fit.spheroid;
+    let apple = spheroid.sphere();
     let reach = (config.branch_reach + SHELL_MARGIN) * apple.radius;
     let shell = &mut scratch.shell;
     let projection = frame.projection();
-    shell.fill(&frame.frame().depth, projection, &body, reach, noise);
-    let inliers = shell.surface_count(&body, window, noise);
+    shell.fill(&frame.frame().depth, projection, &spheroid, reach, noise);
+    let inliers = shell.surface_count(&spheroid, window, noise);
     answer.apple = Some(fitted_apple(found, inliers));
     answer.evidence.surface = shell.pixels_of(APPLE);
     let search = Search {
@@ -119,14 +122,14 @@ fn find_branch(
         sigma: noise.sigma(apple.center.z),
         config,
     };
-    let ranked = search.candidates(&mut scratch.slices);
+    let ranked = search.candidates(&mut scratch.sections);
     answer.candidates = ranked.iter().map(branch_candidate).collect();
     let decided = decide(found, &ranked, config, answer);
     match (&decided, ranked.first()) {
         (Ok(()), Some(best)) => {
-            search.pixels(best, &mut scratch.slices, &mut answer.evidence.branch);
+            search.pixels(best, &mut scratch.sections, &mut answer.evidence.branch);
         }
-        _ => answer.view_from = view::clearest(shell, &apple),
+        _ => answer.view_from = viewpoint::least_occluded_direction(shell, &apple),
     }
     answer.times.branch = start.elapsed();
     decided
@@ -142,18 +145,20 @@ fn decide(
     let Some(best) = ranked.first() else {
         return Err(confidence::without_candidate(found));
     };
-    let center = Position::new(found.fit.body.center);
+    let center = Position::new(found.fit.spheroid.center);
     let sd = (found.fit.covariance.trace() / 3.0)
         .sqrt()
         .hypot(best.foot_sd)
         / best.distance.max(1e-3);
-    let confidence = confidence::confidence(found, ranked);
+    let features = confidence::features(found, ranked);
+    let confidence = features.as_ref().map_or(0.0, confidence::probability);
+    answer.evidence.confidence_features = features;
     answer.confidence = Some(confidence);
     let foot = Position::new(best.foot);
     answer.branch = Some(FittedBranch::new(
         foot,
         Direction::from_unit(best.tangent),
-        best.tally.pixels,
+        best.support.pixels,
         best.rms,
     ));
     if confidence < config.least_confidence {
@@ -169,24 +174,24 @@ fn decide(
 
 fn fitted_apple(found: &SeenApple, inliers: usize) -> FittedApple {
     let fit = &found.fit;
-    let center = Position::new(fit.body.center);
+    let center = Position::new(fit.spheroid.center);
     FittedApple {
         center_covariance: Some(PositionCovariance::new(fit.covariance)),
         radius_sd_m: Some(fit.radius_sd),
         visible_share: Some(found.visible_share),
         agreement: Some(found.agreement),
-        ..FittedApple::new(center, fit.body.radius, inliers, fit.rms)
+        ..FittedApple::new(center, fit.spheroid.radius, inliers, fit.rms)
     }
 }
 
 fn branch_candidate(c: &Candidate) -> BranchCandidate {
     let (foot, tangent) = (Position::new(c.foot), Direction::from_unit(c.tangent));
     BranchCandidate {
-        shown_m: c.tally.shown,
-        shown_lesser_side_m: c.tally.shown_lesser_side,
-        odd_m: c.tally.odd,
-        empty_m: c.tally.empty,
-        hidden_m: c.tally.hidden,
+        shown_m: c.support.visible,
+        shown_lesser_side_m: c.support.visible_shorter_side,
+        odd_m: c.support.atypical,
+        empty_m: c.support.empty,
+        hidden_m: c.support.occluded,
         ..BranchCandidate::new(foot, tangent, c.axis.radius, c.distance, c.score)
     }
 }

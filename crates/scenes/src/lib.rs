@@ -22,21 +22,19 @@
 //!
 //! # Concepts
 //!
-//! - A [`World`] holds shapes in the camera's frame (x right, y down, z
-//!   forward; metres): [`Apple`]s, [`Branch`]es along smooth [`Curve`]s, twigs
-//!   (which are not branches), [`Leaf`]s, and perhaps a backdrop.
+//! - A [`World`] contains objects in the camera frame (x right, y down, z forward; metres): [`Apple`]s, [`Branch`]es
+//!   along smooth [`Curve`]s, twigs (which are not branches), [`Leaf`]s, and perhaps a backdrop.
 //! - A [`Shot`] takes a [`Scene`] of it: the ray of every pixel stops at the
 //!   first surface, so that objects occlude one another; a
 //!   [`Sensor`] turns the exact depths into readings.
 //! - A [`Truth`] says, for every apple with a box, where it is, which branch is
 //!   nearest, in which direction to pick, and how much of apple and branch the
 //!   camera sees: enough to decide whether a refusal is right.
-//! - A [`Suite`] is a named list of scenes that are the same for everyone:
-//!   all randomness comes from explicit seeds, and the bytes do not depend on
-//!   the number of threads. `lab15` and `lab150` are the paper's lab, `repeat474`
-//!   its repeats (`-none`, `-light`, `-dense` with fewer or more leaves),
-//!   `orchard` random branches, `harsh` the same outdoors (`-kinect`,
-//!   `-azure-kinect`, `-d400` by other cameras), `row` whole trees, `demo` a picture.
+//! - A [`Suite`] is a named, reproducible list of scenes: all randomness comes from explicit seeds, and the bytes do
+//!   not depend on the number of threads. `lab15` and `lab150` are the paper's laboratory, `repeat474` its repeats
+//!   (`-none`, `-light`, `-dense` with fewer or more leaves), `orchard` random branches, `harsh` the same with a real
+//!   sensor's faults (`-kinect`, `-azure-kinect`, `-d400` with other cameras), `row` whole trees, `demo` a
+//!   demonstration.
 //!
 //! A scene of your own, seen by a camera without noise:
 //!
@@ -61,7 +59,7 @@
 //!
 //! Anything that finds apples: the pipeline is measured by this crate and
 //! must stay unknown to it. Lens distortion, motion blur and photographic
-//! realism: the colours are there for detectors of coloured shapes and for people.
+//! realism: the colours serve detectors of coloured objects and human viewers.
 //!
 //! # References
 //!

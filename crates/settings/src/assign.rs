@@ -8,6 +8,10 @@ use toml::{Table, Value};
 /// # Errors
 ///
 /// [`ConfigError::Unknown`] where no setting has that path, [`ConfigError::Type`] where the value is none of its kind.
+#[expect(
+    clippy::needless_pass_by_value,
+    reason = "callers make the value for this call: `70.into()` reads well"
+)]
 pub fn set<T: Settings>(settings: &T, path: &str, value: Value) -> Result<T, ConfigError> {
     let description = Description::of::<T>();
     let Some(setting) = description.setting(path) else {

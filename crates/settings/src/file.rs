@@ -84,11 +84,11 @@ impl Walk<'_> {
 
     /// The error with its file, and the line of the setting that it names.
     fn in_file(&self, name: &str, source: ConfigError) -> ConfigError {
-        let setting = match &source {
-            ConfigError::Unknown { name, .. }
-            | ConfigError::Type { name, .. }
-            | ConfigError::Value { name, .. } => name,
-            _ => return source,
+        let (ConfigError::Unknown { name: setting, .. }
+        | ConfigError::Type { name: setting, .. }
+        | ConfigError::Value { name: setting, .. }) = &source
+        else {
+            return source;
         };
         let line = self.lines.iter().find(|(path, _)| path == setting);
         let line = line.map_or_else(String::new, |(_, line)| format!(", line {line}"));

@@ -19,7 +19,7 @@
 //! let kettle: KettleConfig = parse("off_at_deg_c = 85", "kettle.toml")?;
 //! assert_eq!((kettle.off_at_deg_c, kettle.on_at_deg_c), (85.0, 80.0));
 //!
-//! // Names and values are checked, and the message says what would be right.
+//! // Names and values are checked, and the message gives the remedy.
 //! let unknown = parse::<KettleConfig>("of_at_deg_c = 85", "kettle.toml").unwrap_err();
 //! assert!(unknown.to_string().contains("did you mean `off_at_deg_c`"));
 //! let cold = set(&kettle, "off_at_deg_c", 70.into())?.validate().unwrap_err();
@@ -36,19 +36,19 @@
 //! # Concepts
 //!
 //! - [`settings!`] declares a struct of settings. From the one declaration come the struct with its documentation, its
-//!   defaults, how it is read and written, and its checks. What a file leaves out keeps its default.
+//!   defaults, serialisation, and its checks. Settings missing in a file keep their defaults.
 //! - A declaration may have *sections*, structs declared the same way, which become the tables of the file. A setting's
 //!   name is its path, `section.name`.
-//! - Each setting has a [`Rule`] of its own. `order` states which of two settings is the larger one, `require` any other
-//!   condition on several.
-//! - [`choices!`] declares an enum whose values are words.
+//! - Each setting has a [`Rule`] of its own. `order` states which of two settings is the larger one, `require` any
+//!   other condition on several.
+//! - [`choices!`] declares an enum whose values are names.
 //! - A [`Description`] lists the sections and settings with everything that was declared; from it come the commented
 //!   TOML file, Markdown tables and a JSON Schema.
 //! - A setting of type `Option` may be left out; its declaration shows an example in place of a default.
 //!
 //! # Not here
 //!
-//! What any setting means; the command line; where files of settings are looked for.
+//! The meaning of any setting; the command line; the location of settings files.
 
 // So that the macros work in this crate's own tests.
 extern crate self as pomona_settings;

@@ -67,7 +67,7 @@ fn of(setting: &Setting) -> Value {
     };
     let in_words: Vec<String> = own.into_iter().chain(in_words).collect();
     if !in_words.is_empty() {
-        description += &format!(" It must be {}.", in_words.join(", and "));
+        description = format!("{description} It must be {}.", in_words.join(", and "));
     }
     schema.insert("description".to_owned(), description.into());
     if let Some(default) = setting.default.clone() {

@@ -3,7 +3,7 @@
 use crate::terminal::{FAINT, HEADING, Terminal, one_line};
 use pomona_statistics::{Proportion, Summary};
 
-/// What stands where nothing is known.
+/// Shown in place of an unknown value.
 pub(super) const UNKNOWN: &str = "-";
 
 pub(super) fn known<T>(value: Option<T>, form: impl Fn(T) -> String) -> String {

@@ -17,18 +17,18 @@ Examples:
   pomona pick frames/left frames/right --fuse --out out    out/fused.json beside out/left and out/right
   pomona pick frames/* --out out --json | jq '.[].picks[].direction'
 
-With --fuse, the frames show one tree. A frame's pose is robot_from_camera.json in its folder, else that of \
---transform: a camera at rest.
+With --fuse, the frames show one tree. The camera's pose is robot_from_camera.json in the frame's folder, else that \
+of --transform (a fixed camera).
 
-A frame is a folder with color.png (or .jpg), depth.png (16 bit, registered to colour), camera.json and, where \
-they are known, boxes (boxes.xml VOC, boxes.json COCO or boxes.txt YOLO). Without boxes a detector finds the apples, \
-and depth marks those that are none: see `detection` in `pomona config`.
+A frame is a folder with color.png (or .jpg), depth.png (16 bit, registered to colour), camera.json and, \
+optionally, boxes (boxes.xml VOC, boxes.json COCO or boxes.txt YOLO). Without boxes the detector finds the apples, and \
+the depth check marks false ones: see `detection` in `pomona config`.
 
-In the table, `angle` is that of the direction in the picture (0 right, 90 up) and `away` that out of the image \
-plane (positive away from the camera).
+In the table, `angle` is the angle of the direction in the image (0 right, 90 up) and `away` its angle out of the \
+image plane (positive away from the camera).
 
-An apple without an answer is refused with its reason, and the run goes on. Exit code 0: every frame was \
-processed. 2: bad input; frames that failed have written nothing.";
+An apple that cannot be answered is refused with a reason, and the run continues. Exit code 0: every frame was \
+processed. 2: bad input; nothing is written for frames that failed.";
 
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
@@ -40,49 +40,48 @@ pub(crate) struct PickArguments {
     /// Folders of frames.
     #[arg(required = true, value_name = "FRAME")]
     pub(super) frames: Vec<PathBuf>,
-    /// Where to write; several frames get a folder each in there. Our own files are replaced.
+    /// Output folder; several frames get a folder each in it. Files of earlier runs are replaced.
     #[arg(short, long, value_name = "DIR")]
     pub(super) out: PathBuf,
-    /// Boxes of the apples (VOC, COCO or YOLO) in place of the frame's own; for one frame.
+    /// Boxes of the apples (VOC, COCO or YOLO) instead of the frame's own; for one frame.
     #[arg(long, value_name = "FILE")]
     pub(super) boxes: Option<PathBuf>,
-    /// Let the detector find the apples, also where a frame has boxes.
+    /// Run the detector even if a frame has boxes.
     #[arg(long, conflicts_with = "boxes")]
     pub(super) detect: bool,
     /// Seed of the random numbers.
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(super) seed: u64,
-    /// Transform from the camera's to the robot's frame; adds the answers in the robot's frame.
+    /// Transform from the camera frame to the robot frame; adds the answers in the robot frame.
     #[arg(long, value_name = "FILE")]
     pub(super) transform: Option<PathBuf>,
-    /// Plan how a robot with these settings (see `pomona config --robot`) gets to each apple and in
-    /// which order; adds gripper, approach, clearance and order to the record, and the path to the picture.
+    /// Plan paths and picking order for a robot with these settings (see `pomona config --robot`); adds gripper,
+    /// approach, clearance and order to the record, and the paths to the picture.
     #[arg(long, value_name = "FILE", requires = "transform")]
     pub(super) robot: Option<PathBuf>,
-    /// Write the plan as messages of ROS 2 and `MoveIt` too, ros-*.yaml for `ros2 topic pub`.
+    /// Also write the plan as ROS 2 and `MoveIt` messages, ros-*.yaml for `ros2 topic pub`.
     #[arg(long, requires = "robot")]
     pub(super) ros: bool,
-    /// Write frame and plan as recording.mcap too, for Foxglove.
+    /// Also write frame and plan as recording.mcap, for Foxglove.
     #[cfg(feature = "mcap")]
     #[arg(long, requires = "robot")]
     pub(super) mcap: bool,
-    /// Combine frames of one tree in the robot's frame: one answer for each apple, how far the tree
-    /// swayed, which apples moved; written to fused.json.
+    /// Combine frames of one tree in the robot frame: one answer for each apple, the sway of the tree, and which
+    /// apples moved; written to fused.json.
     #[arg(long)]
     pub(super) fuse: bool,
-    /// Write the points of all frames in the robot's frame to fused.ply too, thinned to
-    /// `fusion.voxel_m`.
+    /// Also write the points of all frames in the robot frame to fused.ply, thinned to `fusion.voxel_m`.
     #[arg(long, requires = "fuse")]
     pub(super) fused_cloud: bool,
-    /// Print the record to standard output in place of the table: one JSON object for one frame, an
-    /// array for several; the fused one with --fuse.
+    /// Print the record to standard output instead of the table: one JSON object for one frame, an array for several;
+    /// the fused record with --fuse.
     #[arg(long)]
     pub(super) json: bool,
-    /// Leave picture.png out.
+    /// Do not write picture.png.
     #[arg(long)]
     pub(super) no_picture: bool,
-    /// Which apples get a coloured cloud apple-N.ply: best (the picked apple with most surface
-    /// points), all, none, or numbers such as 0,3.
+    /// Which apples get a coloured cloud apple-N.ply: best (the picked apple with the most surface points), all,
+    /// none, or numbers such as 0,3.
     #[arg(long, value_name = "WHICH", default_value = "best")]
     pub(super) clouds: CloudChoice,
     #[command(flatten)]

@@ -1,3 +1,4 @@
+use super::confidence::CONFIDENCE_FEATURES;
 use super::direction::{FallbackDirection, PickDirection};
 use super::fitted::{BranchCandidate, FittedApple, FittedBranch};
 use super::plan::ApplePlan;
@@ -73,12 +74,15 @@ impl AppleAnswer {
 }
 
 /// What supports one answer: pixels of the depth image as `v * width + u`, for pictures.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Evidence {
     /// Pixels on the apple's surface.
     pub surface: Vec<u32>,
     /// Pixels on its branch.
     pub branch: Vec<u32>,
+    /// What the confidence of `robust` is computed from, in the order of
+    /// [`CONFIDENCE_FEATURES`](crate::CONFIDENCE_FEATURES); absent where there is no candidate.
+    pub confidence_features: Option<[f64; CONFIDENCE_FEATURES.len()]>,
 }
 
 /// The time that each stage of one apple took.

@@ -1,9 +1,11 @@
-//! One apple: from the readings of its box to its body.
+//! One apple: from the readings of its box to its spheroid.
 
 use super::blocks::{Area, Blocks};
-use super::body::{Body, BodyFit, BodyPrior, Course, Sightings, fit_body};
-use super::contour::{agreement, grazing_rays};
+use super::silhouette::{agreement, silhouette_rays};
 use super::sphere::{BoxRays, candidates, support};
+use super::spheroid::{
+    FitSchedule, Spheroid, SpheroidFit, SpheroidPrior, SurfaceObservations, fit_spheroid,
+};
 use crate::config::{FruitConfig, RobustConfig};
 use crate::optics::{DepthNoise, DepthPatch, Projection, depth_jump_m};
 use crate::outcome::Status;
@@ -21,6 +23,29 @@ const ROUND_SD_M: f64 = 0.0015;
 /// Within how much of a sphere a block of readings supports it, metres, beside its noise.
 const ROUND_SUPPORT_M: f64 = 0.0008;
 
+/// Standard deviations within which a block supports a sphere: about 99 % of Gaussian ones.
+const SUPPORT_SIGMAS: f64 = 2.5;
+
+/// Pixels from its silhouette within which a silhouette ray agrees with a spheroid.
+const SILHOUETTE_TOLERANCE_PX: f64 = 2.5;
+
+/// Depth of an apple's visible surface before its centre, as a share of the radius, for the scale of its box.
+const SURFACE_BEFORE_CENTER: f64 = 0.25;
+
+/// Cut-offs of the robust weight, standard deviations, while spheres compete: two steps, then two after the
+/// silhouette has been found again.
+const SPHERE_CUTOFFS: [[f64; 2]; 2] = [[5.0, 3.5], [3.0, 3.0]];
+
+/// Cut-offs of the two fits of the flattened spheroid.
+const FIRST_CUTOFFS: [f64; 4] = [5.0, 4.0, 3.5, 3.0];
+const LAST_CUTOFFS: [f64; 4] = [3.0; 4];
+
+/// How much of its flattening a spheroid's equator exceeds the sphere fitted to it: mean over the directions seen.
+const SPHERE_TO_EQUATOR: f64 = 0.3;
+
+/// Mean stem axis before an apple is seen, z over −y: up in the image, a little towards the camera.
+const STEM_LEAN: f64 = -0.2;
+
 /// Fewest blocks of readings that make an apple.
 const LEAST_BLOCKS: usize = 8;
 
@@ -30,10 +55,10 @@ const JUMP_SIGMAS: f64 = 6.0;
 /// A fitted apple, and how well it was seen.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SeenApple {
-    pub(crate) fit: BodyFit,
+    pub(crate) fit: SpheroidFit,
     /// Share of its outline's area on which its surface shows.
     pub(crate) visible_share: f64,
-    /// How well the body agrees with points, outline and box; 1 is perfect.
+    /// How well the spheroid agrees with points, outline and box; 1 is perfect.
     pub(crate) agreement: f64,
 }
 
@@ -85,7 +110,7 @@ impl AppleSearch<'_> {
             .iter()
             .fold(f32::INFINITY, |a, &b| a.min(b));
         let sigma = noise.sigma(f64::from(front)) * self.shared(1.0 / side as f64);
-        let threshold = 2.5 * sigma.hypot(ROUND_SUPPORT_M);
+        let threshold = SUPPORT_SIGMAS * sigma.hypot(ROUND_SUPPORT_M);
         let spheres = candidates(
             &buffers.blocks,
             &bounds,
@@ -98,11 +123,11 @@ impl AppleSearch<'_> {
             .best_sphere(&spheres, &bounds, threshold, buffers)
             .ok_or(Status::NoSphere)?;
         let fit = self.flattened(sphere, buffers).ok_or(Status::NoSphere)?;
-        let radius = fit.body.radius;
+        let radius = fit.spheroid.radius;
         if !self.fruit.fitted().contains(radius) {
             return Err(Status::ImplausibleRadius);
         }
-        let outline = (radius / self.pixel(&fit.body)).powi(2) * std::f64::consts::PI;
+        let outline = (radius / self.pixel(&fit.spheroid)).powi(2) * std::f64::consts::PI;
         Ok(SeenApple {
             fit,
             visible_share: (fit.weight * (side * side) as f64 / outline).min(1.0),
@@ -135,13 +160,13 @@ impl AppleSearch<'_> {
         (share * self.noise.correlation_px).min(1.0)
     }
 
-    /// Metres of a pixel at the body's depth.
-    fn pixel(&self, body: &Body) -> f64 {
-        self.projection.pixel_m(body.center.z)
+    /// Metres of a pixel at the spheroid's depth.
+    fn pixel(&self, spheroid: &Spheroid) -> f64 {
+        self.projection.pixel_m(spheroid.center.z)
     }
 
-    /// What is believed of the apple: of its radius by the smaller side of the box, where boxes are trusted so far.
-    fn prior(&self, blocks: &Blocks) -> BodyPrior {
+    /// The prior of the apple; of its radius by the smaller side of the box where the settings trust boxes.
+    fn prior(&self, blocks: &Blocks) -> SpheroidPrior {
         let config = self.config;
         let mean = config.radius_mean_m.unwrap_or(self.fruit.prior_mean());
         let radius = if config.box_radius_sd_m > 0.0 {
@@ -151,7 +176,7 @@ impl AppleSearch<'_> {
             let mut depths = blocks.z.clone();
             let third = depths.len() / 3;
             let (_, depth, _) = depths.select_nth_unstable_by(third, f32::total_cmp);
-            let depth = f64::from(*depth) + 0.25 * mean;
+            let depth = f64::from(*depth) + SURFACE_BEFORE_CENTER * mean;
             let radius = 0.5 * side * self.projection.pixel_m(depth);
             let tried = self.fruit.hypotheses();
             let radius = radius.clamp(tried.least, tried.most);
@@ -160,7 +185,7 @@ impl AppleSearch<'_> {
             let sd = config.radius_sd_m.unwrap_or(self.fruit.prior_sd());
             (mean, sd)
         };
-        BodyPrior {
+        SpheroidPrior {
             radius,
             flattening: (self.config.flattening_mean, self.config.flattening_sd),
             axis: up(),
@@ -169,29 +194,29 @@ impl AppleSearch<'_> {
         }
     }
 
-    /// Looks for the outline about `body`, and fits to it and to the points.
+    /// Looks for the outline about `spheroid`, and fits to it and to the points.
     fn refit(
         &self,
-        body: Body,
-        prior: &BodyPrior,
-        course: &Course<'_>,
+        spheroid: Spheroid,
+        prior: &SpheroidPrior,
+        schedule: &FitSchedule<'_>,
         buffers: &mut AppleBuffers,
-    ) -> Option<BodyFit> {
-        let sigma = self.noise.sigma(body.center.z);
-        grazing_rays(
+    ) -> Option<SpheroidFit> {
+        let sigma = self.noise.sigma(spheroid.center.z);
+        silhouette_rays(
             &buffers.patch,
             self.projection,
-            &body,
+            &spheroid,
             sigma,
             &mut buffers.rays,
         );
-        let sightings = Sightings {
+        let observations = SurfaceObservations {
             points: &buffers.points,
             rays: &buffers.rays,
-            ray_sd: self.config.contour_sd_px * self.pixel(&body),
+            ray_sd: self.config.contour_sd_px * self.pixel(&spheroid),
             noise: self.noise,
         };
-        fit_body(&sightings, body, prior, course)
+        fit_spheroid(&observations, spheroid, prior, schedule)
     }
 
     /// Of the spheres, each refined a little, the one that agrees best with points, outline and box.
@@ -201,64 +226,75 @@ impl AppleSearch<'_> {
         bounds: &BoxRays,
         threshold: f64,
         buffers: &mut AppleBuffers,
-    ) -> Option<(f64, Body)> {
+    ) -> Option<(f64, Spheroid)> {
         let config = self.config;
         let tried = self.fruit.hypotheses();
-        let prior = BodyPrior {
+        let prior = SpheroidPrior {
             shape_sd: ROUND_SD_M,
             ..self.prior(&buffers.blocks)
         };
-        let course = |cuts| Course {
+        let schedule = |cuts| FitSchedule {
             cuts,
-            keep_shape: true,
-            settled: false,
+            fix_shape: true,
+            reject_outlying_rays: false,
         };
-        let mut best: Option<(f64, Body)> = None;
+        let mut best: Option<(f64, Spheroid)> = None;
         for sphere in spheres {
-            let body = Body::round(sphere, up());
+            let spheroid = Spheroid::round(sphere, up());
             let refined = self
-                .refit(body, &prior, &course(&[5.0, 3.5]), buffers)
-                .and_then(|first| self.refit(first.body, &prior, &course(&[3.0, 3.0]), buffers));
-            let Some(body) = refined.map(|fit| fit.body) else {
+                .refit(spheroid, &prior, &schedule(&SPHERE_CUTOFFS[0]), buffers)
+                .and_then(|first| {
+                    self.refit(
+                        first.spheroid,
+                        &prior,
+                        &schedule(&SPHERE_CUTOFFS[1]),
+                        buffers,
+                    )
+                });
+            let Some(spheroid) = refined.map(|fit| fit.spheroid) else {
                 continue;
             };
-            if !tried.contains(body.radius) {
+            if !tried.contains(spheroid.radius) {
                 continue;
             }
-            let outline = agreement(&buffers.rays, &body, 2.5 * self.pixel(&body));
-            let score = support(&buffers.blocks, &body.sphere(), threshold)
-                - config.box_weight * bounds.disagreement(&body.sphere())
+            let outline = agreement(
+                &buffers.rays,
+                &spheroid,
+                SILHOUETTE_TOLERANCE_PX * self.pixel(&spheroid),
+            );
+            let score = support(&buffers.blocks, &spheroid.sphere(), threshold)
+                - config.box_weight * bounds.disagreement(&spheroid.sphere())
                 + OUTLINE_WEIGHT * outline;
             if best.is_none_or(|(other, _)| score > other) {
-                best = Some((score, body));
+                best = Some((score, spheroid));
             }
         }
         best
     }
 
-    /// The flattened body from a sphere.
-    fn flattened(&self, sphere: Body, buffers: &mut AppleBuffers) -> Option<BodyFit> {
+    /// The flattened spheroid from a sphere.
+    fn flattened(&self, sphere: Spheroid, buffers: &mut AppleBuffers) -> Option<SpheroidFit> {
         let flattening = self.config.flattening_mean;
-        let start = Body {
-            radius: sphere.radius * (1.0 + 0.3 * flattening),
+        let start = Spheroid {
+            radius: sphere.radius * (1.0 + SPHERE_TO_EQUATOR * flattening),
             flattening,
             // Leant a little towards the camera: straight up, the fit would not know which way to turn it.
-            axis: Unit::new_normalize(Vector3::new(0.0, -1.0, -0.2)),
+            axis: Unit::new_normalize(Vector3::new(0.0, -1.0, STEM_LEAN)),
             ..sphere
         };
         let prior = self.prior(&buffers.blocks);
-        let course = |cuts, settled| Course {
+        let schedule = |cuts, reject_outlying_rays| FitSchedule {
             cuts,
-            keep_shape: false,
-            settled,
+            fix_shape: false,
+            reject_outlying_rays,
         };
-        let first = self.refit(
-            start,
+        let first = self.refit(start, &prior, &schedule(&FIRST_CUTOFFS, false), buffers)?;
+        self.refit(
+            first.spheroid,
             &prior,
-            &course(&[5.0, 4.0, 3.5, 3.0], false),
+            &schedule(&LAST_CUTOFFS, true),
             buffers,
-        )?;
-        self.refit(first.body, &prior, &course(&[3.0; 4], true), buffers)
+        )
     }
 }
 

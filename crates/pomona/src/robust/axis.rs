@@ -1,10 +1,10 @@
-use super::body::biweight;
+use super::spheroid::biweight;
 use nalgebra::{Matrix3, Point3, Unit, Vector3};
 use pomona_geometry::Line;
 
-/// A curved axis: a line, and parabolas across it sideways in the image and in depth.
+/// A curved axis: a line, and parabolas across it lateral in the image and in depth.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Axis {
+pub(crate) struct BranchAxis {
     /// Point of the line from which lengths along it are measured.
     pub(crate) base: Point3<f64>,
     /// Unit direction of the line.
@@ -13,10 +13,10 @@ pub(crate) struct Axis {
     pub(crate) side: Vector3<f64>,
     /// Unit vector across the line, away from the camera.
     deep: Vector3<f64>,
-    /// Coefficients of 1, s, s² of the way sideways.
-    pub(crate) sideways: Vector3<f64>,
-    /// Coefficients of 1, s, s² of the way in depth.
-    pub(crate) depthways: Vector3<f64>,
+    /// Coefficients of 1, s, s² of the way lateral.
+    pub(crate) lateral: Vector3<f64>,
+    /// Coefficients of 1, s, s² of the offset away from the camera.
+    pub(crate) depth_offset: Vector3<f64>,
     /// Radius of the branch.
     pub(crate) radius: f64,
 }
@@ -26,7 +26,7 @@ pub(crate) fn powers(s: f64) -> Vector3<f64> {
     Vector3::new(1.0, s, s * s)
 }
 
-impl Axis {
+impl BranchAxis {
     /// A straight axis about the foot of `center` on `line`; `None` where the line points at the camera.
     pub(crate) fn straight(line: &Line, center: &Point3<f64>, radius: f64) -> Option<Self> {
         let base = line.foot(center);
@@ -43,8 +43,8 @@ impl Axis {
             along,
             side,
             deep,
-            sideways: Vector3::zeros(),
-            depthways: Vector3::zeros(),
+            lateral: Vector3::zeros(),
+            depth_offset: Vector3::zeros(),
             radius,
         })
     }
@@ -53,16 +53,16 @@ impl Axis {
         let p = powers(s);
         self.base
             + self.along * s
-            + self.side * self.sideways.dot(&p)
-            + self.deep * self.depthways.dot(&p)
+            + self.side * self.lateral.dot(&p)
+            + self.deep * self.depth_offset.dot(&p)
     }
 
     pub(crate) fn tangent(&self, s: f64) -> Unit<Vector3<f64>> {
         let slope = Vector3::new(0.0, 1.0, 2.0 * s);
         Unit::new_normalize(
             self.along
-                + self.side * self.sideways.dot(&slope)
-                + self.deep * self.depthways.dot(&slope),
+                + self.side * self.lateral.dot(&slope)
+                + self.deep * self.depth_offset.dot(&slope),
         )
     }
 
@@ -76,9 +76,9 @@ impl Axis {
     }
 }
 
-/// A value seen at a place along the axis.
+/// A value observed at a place along the axis.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Sample {
+pub(crate) struct Observation {
     pub(crate) s: f64,
     pub(crate) value: f64,
     pub(crate) weight: f64,
@@ -104,10 +104,15 @@ impl Parabola {
 
     /// Fits samples of standard deviation `scale` by reweighted least squares, from their median on.
     ///
-    /// `bend_sd` is the believed standard deviation of the coefficient of s², per metre; slopes and offsets are believed
-    /// only weakly (0.7; 20 mm). `cuts` tells where the robust weight ends for each step, in scales. `None` for fewer than four
+    /// `bend_sd` is the prior standard deviation of the coefficient of s², per metre; the priors of slope and offset are
+    /// weak (0.7; 20 mm). `cuts` tells where the robust weight ends for each step, in scales. `None` for fewer than four
     /// samples or where no sample is left.
-    pub(crate) fn fit(samples: &[Sample], bend_sd: f64, scale: f64, cuts: &[f64]) -> Option<Self> {
+    pub(crate) fn fit(
+        samples: &[Observation],
+        bend_sd: f64,
+        scale: f64,
+        cuts: &[f64],
+    ) -> Option<Self> {
         const OFFSET_SD_M: f64 = 0.02;
         const SLOPE_SD: f64 = 0.7;
         if samples.len() < 4 {
@@ -135,8 +140,8 @@ impl Parabola {
             if weights <= 0.0 {
                 return None;
             }
-            let beliefs = [OFFSET_SD_M, SLOPE_SD, bend_sd];
-            for (k, sd) in beliefs.into_iter().enumerate() {
+            let priors = [OFFSET_SD_M, SLOPE_SD, bend_sd];
+            for (k, sd) in priors.into_iter().enumerate() {
                 normal[(k, k)] += (scale / sd).powi(2);
             }
             let solved = normal.cholesky()?;
@@ -158,12 +163,12 @@ mod tests {
 
     #[test]
     fn a_parabola_among_outliers_is_found() {
-        let samples: Vec<Sample> = (-40..=40)
+        let samples: Vec<Observation> = (-40..=40)
             .map(|k| {
                 let s = f64::from(k) * 0.002;
                 let wild = if k % 7 == 0 { 0.015 } else { 0.0 };
                 let value = 0.001 + 0.1 * s + 0.15 * s * s + wild;
-                Sample {
+                Observation {
                     s,
                     value,
                     weight: 1.0,
@@ -180,9 +185,9 @@ mod tests {
     fn the_nearest_place_has_its_tangent_across() {
         let line = Line::new(Point3::new(0.05, 0.0, 0.9), Vector3::new(0.2, 1.0, 0.4)).unwrap();
         let center = Point3::new(0.0, 0.01, 0.9);
-        let mut axis = Axis::straight(&line, &center, 0.005).unwrap();
-        axis.sideways[2] = 0.3;
-        axis.depthways[1] = 0.1;
+        let mut axis = BranchAxis::straight(&line, &center, 0.005).unwrap();
+        axis.lateral[2] = 0.3;
+        axis.depth_offset[1] = 0.1;
         let s = axis.nearest(&center, 0.1);
         assert!(
             (center - axis.at(s))

@@ -9,7 +9,7 @@ pub(crate) struct Blocks {
     pub(crate) x: Vec<f32>,
     pub(crate) y: Vec<f32>,
     pub(crate) z: Vec<f32>,
-    /// DepthNoise of each, as a share of that of one reading.
+    /// `DepthNoise` of each, as a share of that of one reading.
     pub(crate) share: Vec<f32>,
 }
 

@@ -1,6 +1,6 @@
 //! The surroundings of an apple: a patch of depth in which apples are marked.
 
-use super::body::Body;
+use super::spheroid::Spheroid;
 use crate::optics::{DepthNoise, DepthPatch, Projection, window_of_sphere};
 use nalgebra::Point3;
 use pomona_cloud::{DepthImage, PixelWindow};
@@ -23,7 +23,7 @@ impl Shell {
         &mut self,
         depth: &DepthImage,
         projection: &Projection<'_>,
-        own: &Body,
+        own: &Spheroid,
         reach: f64,
         noise: DepthNoise,
     ) {
@@ -52,15 +52,15 @@ impl Shell {
         of.map(|(i, _)| self.patch.image_index(i)).collect()
     }
 
-    /// Number of the readings of `window` that lie on the body's surface.
+    /// Number of the readings of `window` that lie on the spheroid's surface.
     pub(crate) fn surface_count(
         &self,
-        body: &Body,
+        spheroid: &Spheroid,
         window: PixelWindow,
         noise: DepthNoise,
     ) -> usize {
         let patch = &self.patch;
-        let sd = noise.sigma(body.center.z);
+        let sd = noise.sigma(spheroid.center.z);
         let (x0, y0) = patch.origin;
         let window = window.intersection(patch.window());
         let rows = window.y0..window.y1;
@@ -69,7 +69,7 @@ impl Shell {
                 let i = y * patch.width + x;
                 self.seen[i] == APPLE && {
                     let p = patch.point_at(x, y, patch.z[i]);
-                    body.signed_distance(&p).abs() < surface_band(body, &p, sd)
+                    spheroid.signed_distance(&p).abs() < surface_band(spheroid, &p, sd)
                 }
             })
             .count()
@@ -78,16 +78,16 @@ impl Shell {
     fn mark(
         &mut self,
         projection: &Projection<'_>,
-        body: &Body,
+        spheroid: &Spheroid,
         width: usize,
         height: usize,
         noise: DepthNoise,
     ) {
-        let sd = noise.sigma(body.center.z);
+        let sd = noise.sigma(spheroid.center.z);
         let band = 0.0015 + 2.5 * sd;
         let around = Sphere {
-            center: body.center,
-            radius: body.radius + band,
+            center: spheroid.center,
+            radius: spheroid.radius + band,
         };
         let patch = &self.patch;
         let (x0, y0) = patch.origin;
@@ -101,10 +101,10 @@ impl Shell {
                 }
                 let p = patch.point_at(u - x0, v - y0, patch.z[i]);
                 // DepthNoise lies along the ray: where the surface is seen at a slant it counts for less.
-                let d = p - body.center;
+                let d = p - spheroid.center;
                 let slant = (d.dot(&p.coords) / (d.norm() * p.coords.norm()).max(1e-9)).abs();
                 let own_band = 0.0015 + 2.5 * sd * slant.max(0.25);
-                if body.signed_distance(&p) < own_band {
+                if spheroid.signed_distance(&p) < own_band {
                     self.seen[i] = APPLE;
                 }
             }
@@ -112,10 +112,10 @@ impl Shell {
     }
 }
 
-/// Distance from the body's surface, metres, within which a reading `p` with standard deviation `sd` lies on it.
-fn surface_band(body: &Body, p: &Point3<f64>, sd: f64) -> f64 {
+/// Distance from the spheroid's surface, metres, within which a reading `p` with standard deviation `sd` lies on it.
+fn surface_band(spheroid: &Spheroid, p: &Point3<f64>, sd: f64) -> f64 {
     // Noise lies along the ray: where the surface is seen at a slant it counts for less.
-    let d = p - body.center;
+    let d = p - spheroid.center;
     let slant = (d.dot(&p.coords) / (d.norm() * p.coords.norm()).max(1e-9)).abs();
     0.0015 + 2.5 * sd * slant.max(0.25)
 }

@@ -16,6 +16,30 @@ const PREVIEW: usize = 180;
 /// Depths at which spheres in the box's frame are tried.
 const FRONTS: usize = 12;
 
+/// Distance between box and sphere that costs one unit of disagreement: pixels, …
+const SLACK_PX: f64 = 4.0;
+
+/// … and a share of the box's longer side.
+const SLACK_SHARE: f64 = 0.05;
+
+/// Largest disagreement by a side on which the box reaches over the sphere.
+const OVERHANG_LIMIT: f64 = 9.0;
+
+/// Disagreement of a sphere that reaches over the box by half of its side: partly hidden apples do.
+const HIDDEN_WEIGHT: f64 = 0.15;
+
+/// Limit of the square in it.
+const HIDDEN_LIMIT: f64 = 4.0;
+
+/// Pixels by which boxes are wider than the apple on each side.
+const BOX_MARGIN_PX: f64 = 2.0;
+
+/// Room between the box's shorter side and the sphere, as a share of the radius, from which several places are tried.
+const LEAST_ROOM: f64 = 0.1;
+
+/// Share of the radius within which a reading behind the centre contradicts the sphere.
+const CORE_SHARE: f32 = 0.85;
+
 /// The box of an apple, as rays: the extremes of x/z and y/z.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct BoxRays {
@@ -42,7 +66,7 @@ impl BoxRays {
     }
 
     /// How badly a sphere's outline agrees with the box: 0 where the box frames it, growing fast with every side on which
-    /// the box reaches beyond it, and slowly where it reaches beyond the box, as that of a partly hidden
+    /// the box reaches overhang it, and slowly where it reaches overhang the box, as that of a partly hidden
     /// apple does.
     pub(crate) fn disagreement(&self, sphere: &Sphere) -> f64 {
         let z = sphere.center.z;
@@ -53,12 +77,12 @@ impl BoxRays {
         let (x, y) = (sphere.center.x / z, sphere.center.y / z);
         let (w, h) = self.sides();
         let size = w.max(h);
-        let slack = 4.0 * self.pixel + 0.05 * size;
-        let side = |beyond: f64| {
-            if beyond > 0.0 {
-                (beyond / slack).powi(2).min(9.0)
+        let slack = SLACK_PX * self.pixel + SLACK_SHARE * size;
+        let side = |overhang: f64| {
+            if overhang > 0.0 {
+                (overhang / slack).powi(2).min(OVERHANG_LIMIT)
             } else {
-                0.15 * (beyond / (0.5 * size)).powi(2).min(4.0)
+                HIDDEN_WEIGHT * (overhang / (0.5 * size)).powi(2).min(HIDDEN_LIMIT)
             }
         };
         side((x - r) - self.x.0)
@@ -72,11 +96,11 @@ impl BoxRays {
     fn framed(&self, fronts: &[f64]) -> impl Iterator<Item = Sphere> {
         let (w, h) = self.sides();
         // Boxes are a little wider than what they hold.
-        let half = 0.5 * w.max(h) - 2.0 * self.pixel;
+        let half = 0.5 * w.max(h) - BOX_MARGIN_PX * self.pixel;
         let places = |(low, high): (f64, f64)| {
             let middle = 0.5 * (low + high);
             let room = 0.5 * w.max(h) - 0.5 * (high - low);
-            if room > 0.1 * half {
+            if room > LEAST_ROOM * half {
                 vec![middle - room, middle, middle + room]
             } else {
                 vec![middle]
@@ -106,7 +130,7 @@ pub(crate) fn support(points: &Blocks, sphere: &Sphere, threshold: f64) -> f64 {
     let c = [sphere.center.x, sphere.center.y, sphere.center.z].map(|c| c as f32);
     let (r, t) = (sphere.radius as f32, threshold as f32);
     let inverse = 1.0 / (t * t);
-    let core = (0.85 * r) * (0.85 * r);
+    let core = (CORE_SHARE * r) * (CORE_SHARE * r);
     let mut sum = 0.0f32;
     for ((&x, &y), &z) in points.x.iter().zip(&points.y).zip(&points.z) {
         let (dx, dy, dz) = (x - c[0], y - c[1], z - c[2]);

@@ -1,4 +1,4 @@
-//! Where another look at an apple would help.
+//! From where another view of an apple would help.
 
 use super::shell::{Shell, THING};
 use nalgebra::{Unit, Vector3};
@@ -14,7 +14,7 @@ const CONE_RAD: f64 = 0.6;
 /// Directions that are compared.
 const DIRECTIONS: usize = 8;
 
-/// Every so many pixels count.
+/// One pixel in this many is counted, along rows.
 const STRIDE: usize = 5;
 
 /// Unit vector from the apple's centre towards where a camera would look past the fewest of the things that are seen
@@ -22,7 +22,10 @@ const STRIDE: usize = 5;
 /// up and down.
 ///
 /// `None` for an apple at the camera.
-pub(crate) fn clearest(shell: &Shell, apple: &Sphere) -> Option<Direction<CameraFrame>> {
+pub(crate) fn least_occluded_direction(
+    shell: &Shell,
+    apple: &Sphere,
+) -> Option<Direction<CameraFrame>> {
     let back = (-apple.center.coords).try_normalize(1e-9)?;
     let right = Vector3::y().cross(&back).try_normalize(1e-9)?;
     let down = back.cross(&right);
@@ -38,11 +41,11 @@ pub(crate) fn clearest(shell: &Shell, apple: &Sphere) -> Option<Direction<Camera
             continue;
         }
         let p = patch.point_at(i % patch.width, i / patch.width, patch.z[i]);
-        let Some(way) = (p - apple.center).try_normalize(1e-9) else {
+        let Some(direction_to) = (p - apple.center).try_normalize(1e-9) else {
             continue;
         };
         for (count, direction) in things.iter_mut().zip(&directions) {
-            *count += usize::from(way.dot(direction) > CONE_RAD.cos());
+            *count += usize::from(direction_to.dot(direction) > CONE_RAD.cos());
         }
     }
     let least = (0..DIRECTIONS).min_by_key(|&k| things[k])?;

@@ -1,7 +1,7 @@
-//! Where the apple ends before the background: rays that graze its body.
+//! Where the apple ends before the background: rays that graze its spheroid.
 
-use super::body::Body;
 use super::ray::nearest_on_ray;
+use super::spheroid::Spheroid;
 use crate::optics::{DepthPatch, Projection};
 use nalgebra::{Unit, Vector3};
 
@@ -11,30 +11,43 @@ const DIRECTIONS: usize = 96;
 /// Missing readings over which the surface may go on, pixels.
 const BRIDGE_PX: usize = 8;
 
-/// Pixels beyond the end that must not be surface.
-const BEYOND_PX: usize = 4;
+/// Pixels after the last one of the surface that must not be surface.
+const CLEARANCE_PX: usize = 4;
 
 /// Mixed readings at an edge make its last good pixel lie further in than half a pixel.
 const EDGE_PX: f64 = 0.7;
 
-/// Finds rays that graze the body: from its middle outwards, the end of the last pixel that shows its surface,
-/// where what follows is farther away or no reading at all. Where something nearer follows, the outline is hidden
+/// Difference in depth from the surface that still is surface: standard deviations of a reading, …
+const SURFACE_SIGMAS: f64 = 3.0;
+
+/// … and a share of the radius, for what the shape is off.
+const SURFACE_SHARE: f64 = 0.06;
+
+/// Where the silhouette is sought along a direction from the centre of the image of the apple, radii …
+const SEARCH_RADII: (f64, f64) = (0.6, 1.3);
+
+/// … and pixels beyond the far end.
+const SEARCH_MARGIN_PX: f64 = 4.0;
+
+/// Finds rays that graze the spheroid: from its middle outwards, the end of the last pixel that shows its surface,
+/// where what follows is farther away or no reading at all. Where something nearer follows, the silhouette is occluded
 /// and there is no ray.
-pub(crate) fn grazing_rays(
+pub(crate) fn silhouette_rays(
     patch: &DepthPatch,
     projection: &Projection<'_>,
-    body: &Body,
+    spheroid: &Spheroid,
     sigma: f64,
     out: &mut Vec<Unit<Vector3<f64>>>,
 ) {
     out.clear();
-    let (c, r) = (body.center, body.radius);
+    let (c, r) = (spheroid.center, spheroid.radius);
     let Some((u, v)) = projection.project(&c) else {
         return;
     };
     let r_px = r / projection.pixel_m((c.z * c.z - r * r).max(0.01).sqrt());
-    let tolerance = 3.0 * sigma + 0.06 * r;
-    let steps: Vec<f64> = ((0.6 * r_px) as usize..=(1.3 * r_px + 4.0) as usize)
+    let tolerance = SURFACE_SIGMAS * sigma + SURFACE_SHARE * r;
+    let steps: Vec<f64> = ((SEARCH_RADII.0 * r_px) as usize
+        ..=(SEARCH_RADII.1 * r_px + SEARCH_MARGIN_PX) as usize)
         .map(|step| step as f64)
         .collect();
     let depths: Vec<f64> = steps
@@ -48,7 +61,7 @@ pub(crate) fn grazing_rays(
             let z = f64::from(patch.depth(u + steps[i] * cos, v + steps[i] * sin)?);
             Some(if z == 0.0 { None } else { Some(z - depths[i]) })
         };
-        if let Some(i) = end_of_surface(steps.len(), tolerance, off) {
+        if let Some(i) = last_surface_pixel(steps.len(), tolerance, off) {
             let rho = steps[i] + EDGE_PX;
             if let Some((x, y)) = projection.ray(u + rho * cos, v + rho * sin) {
                 out.push(Unit::new_normalize(Vector3::new(x, y, 1.0)));
@@ -59,7 +72,7 @@ pub(crate) fn grazing_rays(
 
 /// The last step that shows the surface, where background follows. `off` gives how far a reading lies behind the
 /// surface, `None` inside for no reading, and `None` outside of the image.
-fn end_of_surface(
+fn last_surface_pixel(
     steps: usize,
     tolerance: f64,
     off: impl Fn(usize) -> Option<Option<f64>>,
@@ -81,16 +94,16 @@ fn end_of_surface(
             }
         }
     }
-    last.filter(|_| after >= BEYOND_PX)
+    last.filter(|_| after >= CLEARANCE_PX)
 }
 
-/// Of all directions, the share whose ray grazes the body within `tolerance`, less the share whose ray enters
+/// Of all directions, the share whose ray grazes the spheroid within `tolerance`, less the share whose ray enters
 /// it deeper.
-pub(crate) fn agreement(rays: &[Unit<Vector3<f64>>], body: &Body, tolerance: f64) -> f64 {
+pub(crate) fn agreement(rays: &[Unit<Vector3<f64>>], spheroid: &Spheroid, tolerance: f64) -> f64 {
     let balance: f64 = rays
         .iter()
         .map(|ray| {
-            let off = body.signed_distance(&nearest_on_ray(ray, &body.center));
+            let off = spheroid.signed_distance(&nearest_on_ray(ray, &spheroid.center));
             if off.abs() < tolerance {
                 1.0
             } else if off < 0.0 {

@@ -3,56 +3,61 @@
 //! Where a branch is, it shows with an end on either side, or something nearer hides it. Where the readings lie
 //! behind the axis, or are none, there is no branch: a leaf that looks like one ends within its own length.
 
-use super::axis::Axis;
+use super::axis::BranchAxis;
 use super::shell::{APPLE, NOTHING, Shell};
 use crate::optics::Projection;
 
 /// What the pixels across the axis show at one place.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Slice {
+pub(crate) enum CrossSection {
     /// Something at the axis' depth.
-    Thing(Cut),
+    Object(ObjectSection),
     /// Something nearer, or an apple.
-    Hidden,
+    Occluded,
     /// Readings behind the axis, or none.
     Empty,
     /// Outside of the image.
-    Outside,
+    OutsideImage,
 }
 
-/// A thing cut across, in metres from the axis.
+/// The section of an object, metres from the axis.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Cut {
-    /// Its two ends.
-    pub(crate) ends: (f64, f64),
-    /// Whether each is its own: with something farther or nothing beyond.
-    pub(crate) own: (bool, bool),
-    /// How far behind the supposed axis its own lies.
-    pub(crate) deep: f64,
-    /// Pixels of it.
+pub(crate) struct ObjectSection {
+    /// Its two edges.
+    pub(crate) edges: (f64, f64),
+    /// Whether each edge is the object's silhouette: with something farther or no reading next to it.
+    pub(crate) silhouette: (bool, bool),
+    /// Distance of its axis behind the supposed one.
+    pub(crate) depth_behind_axis: f64,
+    /// Pixels that show it.
     pub(crate) pixels: usize,
 }
 
-impl Cut {
+impl ObjectSection {
     /// Its width.
     pub(crate) fn width(&self) -> f64 {
-        self.ends.1 - self.ends.0
+        self.edges.1 - self.edges.0
     }
 
-    /// Its middle, where the whole is `width` wide and one end may be hidden; `None` where both are.
-    pub(crate) fn middle(&self, width: f64) -> Option<f64> {
-        match self.own {
-            (true, true) => Some(0.5 * (self.ends.0 + self.ends.1)),
-            (true, false) => Some(self.ends.0 + 0.5 * width),
-            (false, true) => Some(self.ends.1 - 0.5 * width),
+    /// Whether both edges are visible.
+    pub(crate) fn both_edges(&self) -> bool {
+        self.silhouette == (true, true)
+    }
+
+    /// Its centre, where the whole is `width` wide and one edge may be hidden; `None` where both are.
+    pub(crate) fn center(&self, width: f64) -> Option<f64> {
+        match self.silhouette {
+            (true, true) => Some(0.5 * (self.edges.0 + self.edges.1)),
+            (true, false) => Some(self.edges.0 + 0.5 * width),
+            (false, true) => Some(self.edges.1 - 0.5 * width),
             (false, false) => None,
         }
     }
 }
 
-/// How to walk.
+/// How to `cross_sections`.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Pace {
+pub(crate) struct SectionSpacing {
     /// To either side of the base, metres.
     pub(crate) reach: f64,
     /// From one place to the next, metres.
@@ -63,34 +68,35 @@ pub(crate) struct Pace {
     pub(crate) growth: f64,
 }
 
-/// The slices along an axis with their places; the indices of the pixels of things are added to `pixels`.
-pub(crate) fn walk(
+/// The sections along an axis with their places; the indices of the pixels of things are added to `pixels`.
+pub(crate) fn cross_sections(
     shell: &Shell,
     projection: &Projection<'_>,
-    axis: &Axis,
-    pace: &Pace,
-    out: &mut Vec<(f64, Slice)>,
+    axis: &BranchAxis,
+    spacing: &SectionSpacing,
+    out: &mut Vec<(f64, CrossSection)>,
     mut pixels: Option<&mut Vec<u32>>,
 ) {
     out.clear();
-    let n = (pace.reach / pace.step) as i32;
+    let n = (spacing.reach / spacing.step) as i32;
     for k in -n..=n {
-        let s = f64::from(k) * pace.step;
-        let tolerance = pace.tolerance + pace.growth * s.abs();
-        let slice = match Across::new(shell, projection, axis, s, tolerance) {
-            Some(across) => across.slice(pixels.as_deref_mut()),
-            None => Slice::Outside,
+        let s = f64::from(k) * spacing.step;
+        let tolerance = spacing.tolerance + spacing.growth * s.abs();
+        let section = match SectionLine::new(shell, projection, axis, s, tolerance) {
+            Some(line) => line.section(pixels.as_deref_mut()),
+            None => CrossSection::OutsideImage,
         };
-        out.push((s, slice));
+        out.push((s, section));
     }
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Mark {
-    On,
-    Near,
-    Far,
-    Nothing,
+enum PixelRelation {
+    /// At the depth of the supposed branch's surface.
+    OnSurface,
+    InFront,
+    Behind,
+    NoReading,
     Apple,
     Outside,
 }
@@ -102,11 +108,11 @@ const HALF_PIXELS: i32 = 48;
 const BRIDGE_PX: i32 = 3;
 
 /// The pixels across the axis at one place.
-struct Across<'a> {
+struct SectionLine<'a> {
     shell: &'a Shell,
     /// Pixel of the axis in the patch, and one pixel's way across.
     at: (f64, f64),
-    way: (f64, f64),
+    step: (f64, f64),
     /// Pixels per metre.
     scale: f64,
     /// Depth of the axis, and by how much a surface at the axis' radius lies before it along the ray.
@@ -118,11 +124,11 @@ struct Across<'a> {
     tolerance: f64,
 }
 
-impl<'a> Across<'a> {
+impl<'a> SectionLine<'a> {
     fn new(
         shell: &'a Shell,
         projection: &Projection<'_>,
-        axis: &Axis,
+        axis: &BranchAxis,
         s: f64,
         tolerance: f64,
     ) -> Option<Self> {
@@ -142,7 +148,7 @@ impl<'a> Across<'a> {
         Some(Self {
             shell,
             at: (u - origin.0 as f64 + 0.5, v - origin.1 as f64 + 0.5),
-            way: (du / length, dv / length),
+            step: (du / length, dv / length),
             scale: length / ASIDE_M,
             z: a.z,
             rise: ray.z / sine,
@@ -159,7 +165,7 @@ impl<'a> Across<'a> {
 
     fn pixel(&self, k: i32) -> Option<usize> {
         let k = f64::from(k);
-        let (x, y) = (self.at.0 + k * self.way.0, self.at.1 + k * self.way.1);
+        let (x, y) = (self.at.0 + k * self.step.0, self.at.1 + k * self.step.1);
         if !(x >= 0.0 && y >= 0.0) {
             return None;
         }
@@ -169,50 +175,50 @@ impl<'a> Across<'a> {
     }
 
     /// What pixel `k` aside shows, and how far it lies behind the supposed surface.
-    fn mark(&self, k: i32) -> (Mark, f64) {
+    fn relation(&self, k: i32) -> (PixelRelation, f64) {
         let Some(i) = self.pixel(k) else {
-            return (Mark::Outside, 0.0);
+            return (PixelRelation::Outside, 0.0);
         };
         let z = f64::from(self.shell.patch.z[i]);
         if z == 0.0 {
-            return (Mark::Nothing, 0.0);
+            return (PixelRelation::NoReading, 0.0);
         }
         let off = z - self.surface(f64::from(k) / self.scale);
-        let mark = if off > self.tolerance {
-            Mark::Far
+        let relation = if off > self.tolerance {
+            PixelRelation::Behind
         } else {
             match self.shell.seen[i] {
-                APPLE => Mark::Apple,
-                NOTHING if off > 0.0 => Mark::Far,
-                _ if off < -self.tolerance => Mark::Near,
-                _ => Mark::On,
+                APPLE => PixelRelation::Apple,
+                NOTHING if off > 0.0 => PixelRelation::Behind,
+                _ if off < -self.tolerance => PixelRelation::InFront,
+                _ => PixelRelation::OnSurface,
             }
         };
-        (mark, off)
+        (relation, off)
     }
 
-    fn slice(&self, pixels: Option<&mut Vec<u32>>) -> Slice {
-        if self.mark(0).0 == Mark::Outside {
-            return Slice::Outside;
+    fn section(&self, pixels: Option<&mut Vec<u32>>) -> CrossSection {
+        if self.relation(0).0 == PixelRelation::Outside {
+            return CrossSection::OutsideImage;
         }
         let search = ((0.8 * self.radius * self.scale) as i32).max(1) + 1;
         let seed = (0..=search)
             .flat_map(|k| [k, -k])
-            .find(|&k| self.mark(k).0 == Mark::On);
+            .find(|&k| self.relation(k).0 == PixelRelation::OnSurface);
         let Some(seed) = seed else {
-            return self.without_thing();
+            return self.without_object();
         };
         let most = ((2.4 * self.radius * self.scale) as i32 + 4).min(HALF_PIXELS);
-        let (right, right_own) = self.end(seed, 1, most);
-        let (left, left_own) = self.end(seed, -1, most);
+        let (right, right_silhouette) = self.edge(seed, 1, most);
+        let (left, left_silhouette) = self.edge(seed, -1, most);
         let centre = 0.5 * f64::from(left + right) / self.scale;
         // The middle of the thing tells its depth; towards its ends depths are mixed.
         let quarter = (0.35 * f64::from(right - left)).max(0.5);
         let mut sum = Sums::default();
         let mut count = 0;
         for k in left..=right {
-            let (mark, off) = self.mark(k);
-            if mark != Mark::On {
+            let (relation, off) = self.relation(k);
+            if relation != PixelRelation::OnSurface {
                 continue;
             }
             count += 1;
@@ -223,51 +229,58 @@ impl<'a> Across<'a> {
             }
         }
         if let Some(pixels) = pixels {
-            let on = (left..=right).filter(|&k| self.mark(k).0 == Mark::On);
+            let on = (left..=right).filter(|&k| self.relation(k).0 == PixelRelation::OnSurface);
             let index = |k| Some(self.shell.patch.image_index(self.pixel(k)?));
             pixels.extend(on.filter_map(index));
         }
         let Some(off) = sum.mean() else {
-            return Slice::Empty;
+            return CrossSection::Empty;
         };
-        Slice::Thing(Cut {
-            ends: (
+        CrossSection::Object(ObjectSection {
+            edges: (
                 (f64::from(left) - 0.5) / self.scale,
                 (f64::from(right) + 0.5) / self.scale,
             ),
-            own: (left_own, right_own),
-            deep: off * self.slant,
+            silhouette: (left_silhouette, right_silhouette),
+            depth_behind_axis: off * self.slant,
             pixels: count,
         })
     }
 
     /// The last pixel of the thing from `seed` on, and whether it ends there by itself.
-    fn end(&self, seed: i32, way: i32, most: i32) -> (i32, bool) {
+    fn edge(&self, seed: i32, way: i32, most: i32) -> (i32, bool) {
         let (mut last, mut missing, mut k) = (seed, 0, seed);
         loop {
             k += way;
             if (k - seed).abs() > most || k.abs() > most {
                 return (last, false);
             }
-            match self.mark(k).0 {
-                Mark::On => (last, missing) = (k, 0),
-                Mark::Nothing if missing < BRIDGE_PX => missing += 1,
-                Mark::Nothing | Mark::Far => return (last, true),
-                Mark::Near | Mark::Apple | Mark::Outside => return (last, false),
+            match self.relation(k).0 {
+                PixelRelation::OnSurface => (last, missing) = (k, 0),
+                PixelRelation::NoReading if missing < BRIDGE_PX => missing += 1,
+                PixelRelation::NoReading | PixelRelation::Behind => return (last, true),
+                PixelRelation::InFront | PixelRelation::Apple | PixelRelation::Outside => {
+                    return (last, false);
+                }
             }
         }
     }
 
     /// What most of the middle shows where nothing lies at the axis' depth.
-    fn without_thing(&self) -> Slice {
+    fn without_object(&self) -> CrossSection {
         let half = ((0.5 * self.radius * self.scale) as i32).max(1);
         let hidden = (-half..=half)
-            .filter(|&k| matches!(self.mark(k).0, Mark::Near | Mark::Apple))
+            .filter(|&k| {
+                matches!(
+                    self.relation(k).0,
+                    PixelRelation::InFront | PixelRelation::Apple
+                )
+            })
             .count() as i32;
         if hidden > half {
-            Slice::Hidden
+            CrossSection::Occluded
         } else {
-            Slice::Empty
+            CrossSection::Empty
         }
     }
 }

@@ -1,4 +1,5 @@
-use super::{DETECTION, EvaluateArguments, REPORT, claim, detection_text, json, say};
+use super::detection_text;
+use super::results::{REPORT, Results, json};
 use crate::detect;
 use crate::detector::{BUILT_IN, DetectorSettings, Model, parse_class, parse_model, parse_share};
 use crate::output_folder::Staging;
@@ -18,6 +19,7 @@ use std::path::{Path, PathBuf};
 
 /// Heading of these options.
 const HEADING: &str = "Detection";
+const DETECTION: &str = "detection.json";
 /// Pictures in a row of a sheet.
 const SHEET_COLUMNS: usize = 4;
 /// Side of a picture on a sheet, pixels.
@@ -69,17 +71,18 @@ fn is_sheet(name: &str) -> bool {
     number.is_some_and(|n| n.parse::<usize>().is_ok())
 }
 
+/// Measures the detectors on the first `count` images of the data set `labelled`.
 pub(super) fn run(
-    arguments: &EvaluateArguments,
+    own: &DetectionArguments,
     labelled: &Path,
+    count: Option<usize>,
+    seed: u64,
+    results: &Results,
     terminal: Terminal,
 ) -> anyhow::Result<()> {
-    let own = &arguments.detection;
-    let output = claim(&arguments.out, DETECTION, DETECTION_SCHEMA, is_sheet)?;
+    let output = results.claim(DETECTION, DETECTION_SCHEMA, is_sheet)?;
     let mut dataset = LabelledDataset::read(labelled, own.label_class.as_ref())?;
-    dataset
-        .images
-        .truncate(arguments.count.unwrap_or(usize::MAX));
+    dataset.images.truncate(count.unwrap_or(usize::MAX));
     for name in &own.ignore_label {
         if dataset.ignore(name) == 0 {
             bail!(
@@ -93,7 +96,7 @@ pub(super) fn run(
     let sources: Vec<DetectionSource<'_>> = opened.iter().map(Opened::source).collect();
     let options = DetectionOptions {
         threshold: own.threshold,
-        seed: arguments.seed,
+        seed,
     };
     let bar = progress::bar(dataset.images.len());
     let (evaluation, matched) = evaluate_detections(&dataset, &sources, &options, &|| bar.inc(1))?;
@@ -103,11 +106,7 @@ pub(super) fn run(
     files.write_text(DETECTION, &json(&evaluation)?)?;
     files.write_text(REPORT, &detection_page(&evaluation, &sheets)?)?;
     files.publish()?;
-    say(
-        arguments,
-        &evaluation,
-        &detection_text::tables(&evaluation, terminal),
-    )
+    results.print(&evaluation, &detection_text::tables(&evaluation, terminal))
 }
 
 /// What is measured, ready to run.

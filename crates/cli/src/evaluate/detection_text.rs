@@ -1,4 +1,4 @@
-use super::text::{UNKNOWN, known, table};
+use super::text_table::{UNKNOWN, known, table};
 use crate::terminal::Terminal;
 use pomona_labels::{DetectionEvaluation, DetectionResult, Estimate, SizeRecall};
 use pomona_statistics::Proportion;

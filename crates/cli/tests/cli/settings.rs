@@ -85,18 +85,47 @@ fn settings_reach_the_method() {
 #[test]
 fn settings_reach_the_evaluation() {
     let bench = Bench::new();
-    let out = bench.text("evaluated");
+    bench.write("never.toml", "[robust]\nleast_confidence = 1.0\n");
+    let (out, file) = (bench.text("evaluated"), bench.text("never.toml"));
     let base = ["evaluate", "lab15", "--count", "1", "--json", "--out", &out];
     let picked = |flags: &[&str]| {
         let result = pomona(&[&base[..], flags].concat()).succeeded().json();
         result["results"][0]["answered"]["count"].clone()
     };
-    let (as_it_is, never) = (picked(&[]), picked(&["--set", "robust.least_confidence=1"]));
-    assert_eq!(as_it_is, 1);
-    assert_ne!(never, 1);
-    pomona(&[&base[..], &["--set", "robust.least_confidenc=1"]].concat())
-        .refused(&["did you mean `robust.least_confidence`?"]);
-    pomona(&[&base[..], &["--radius-max-mm", "1"]].concat()).refused(&["fruit.radius_max_m"]);
+    assert_eq!(picked(&[]), 1);
+    assert_eq!(picked(&["--set", "robust.least_confidence=1"]), 0);
+    assert_eq!(picked(&["--config", &file]), 0);
+    // A flag wins over the file, and a method over that of the settings.
+    let flag = ["--config", &file, "--set", "robust.least_confidence=0"];
+    assert_eq!(picked(&flag), 1);
+    assert_eq!(picked(&["--config", &file, "--method", "paper"]), 1);
+    // The apple's radius is 25.78 mm.
+    assert_eq!(picked(&["--radius-min-mm", "45"]), 0);
+}
+
+#[test]
+fn wrong_settings_of_an_evaluation_are_refused() {
+    let bench = Bench::new();
+    let out = bench.text("evaluated");
+    let base = ["evaluate", "lab15", "--count", "1", "--out", &out];
+    for (flag, value, word) in [
+        (
+            "--set",
+            "robust.least_confidenc=1",
+            "did you mean `robust.least_confidence`",
+        ),
+        (
+            "--set",
+            "robust.least_confidence=2",
+            "robust.least_confidence",
+        ),
+        ("--set", "robust.least_confidence", "NAME=VALUE"),
+        ("--radius-max-mm", "1", "fruit.radius_max_m"),
+        ("--config", "gone.toml", "gone.toml"),
+    ] {
+        pomona(&[&base[..], &[flag, value]].concat()).refused(&[word]);
+        assert!(!Path::new(&out).exists(), "{flag} {value}");
+    }
 }
 
 fn docs(name: &str) -> PathBuf {

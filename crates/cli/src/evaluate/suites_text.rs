@@ -1,14 +1,10 @@
-mod base;
-
-use crate::terminal::{FAINT, HEADING, Terminal, one_line};
-use pomona_evaluate::{Alignment, CaliperReport, Evaluation, LabRow, SuiteResult};
-use pomona_statistics::{Proportion, Summary};
-
-/// Shown in place of an unknown value.
-pub(super) const UNKNOWN: &str = "-";
+use super::robot_text;
+use super::text_table::{degrees, known, mm, percent, table};
+use crate::terminal::Terminal;
+use pomona_evaluate::{Evaluation, LabRow, SuiteResult};
 
 /// An evaluation as tables of text.
-pub(super) fn evaluation(evaluation: &Evaluation, terminal: Terminal) -> String {
+pub(super) fn tables(evaluation: &Evaluation, terminal: Terminal) -> String {
     let header = [
         "suite",
         "method",
@@ -83,7 +79,7 @@ pub(super) fn evaluation(evaluation: &Evaluation, terminal: Terminal) -> String 
         let title = format!("Tables 1-3 of the paper and {}, {}", of.suite, of.method);
         text += &("\n".to_owned() + &table(&title, &header, &rows, 1, terminal));
     }
-    text + &pairs(evaluation, terminal) + &base::tables(evaluation, terminal)
+    text + &pairs(evaluation, terminal) + &robot_text::tables(evaluation, terminal)
 }
 
 /// The methods in pairs, apple by apple; nothing where there is one method.
@@ -117,66 +113,6 @@ fn pairs(evaluation: &Evaluation, terminal: Terminal) -> String {
         return "\n".to_owned() + &table("Methods in pairs", &header, &rows, 2, terminal);
     }
     String::new()
-}
-
-/// Radii against calipers as tables of text.
-pub(super) fn calipers(report: &CaliperReport, terminal: Terminal) -> String {
-    let mut text = String::new();
-    for result in &report.results {
-        let rows: Vec<Vec<String>> = result
-            .apples
-            .iter()
-            .map(|row| {
-                vec![
-                    row.box_name.clone(),
-                    row.frame.clone(),
-                    row.status.clone(),
-                    mm(row.measured_radius),
-                    known(row.radius, mm),
-                    known(row.radius_error, mm),
-                ]
-            })
-            .collect();
-        let header = ["box", "frame", "status", "measured r mm", "fitted", "error"];
-        let title = format!("Radii against calipers, {}", result.method);
-        text += &table(&title, &header, &rows, 3, terminal);
-        let absolute = known(result.radius_error_absolute.as_ref(), |s| {
-            with_interval(s, mm)
-        });
-        let bias = known(result.radius_error.as_ref(), |s| with_interval(s, mm));
-        let count = result.radius_error.as_ref().map_or(0, |s| s.count);
-        let means = format!(
-            "mean |error| {absolute} mm, bias {bias} mm, over {count} boxes with a sphere\n"
-        );
-        text += &means;
-        for alignment in &result.alignments {
-            text += &(consistency(alignment) + "\n");
-        }
-    }
-    text
-}
-
-fn consistency(alignment: &Alignment) -> String {
-    let names = format!(
-        "{} and {}",
-        one_line(&alignment.first),
-        one_line(&alignment.second)
-    );
-    match &alignment.distance {
-        Some(distance) => format!(
-            "{names}: {} shared names, {} aligned within 30 mm; centres then {} mm apart on average, median {}, \
-             largest {}",
-            alignment.shared,
-            alignment.fitted,
-            mm(distance.mean),
-            mm(distance.median),
-            mm(distance.max)
-        ),
-        None => format!(
-            "{names}: {} shared names, too few to align by",
-            alignment.shared
-        ),
-    }
 }
 
 fn result(of: &SuiteResult) -> Vec<String> {
@@ -250,63 +186,4 @@ fn lab(row: &LabRow) -> Vec<String> {
         known(row.angle_error.as_ref(), |s| degrees(s.mean)),
         known(row.angle_error.as_ref(), |s| degrees(s.max)),
     ]
-}
-
-pub(super) fn known<T>(value: Option<T>, form: impl Fn(T) -> String) -> String {
-    value.map_or_else(|| UNKNOWN.to_owned(), form)
-}
-
-fn degrees(radians: f64) -> String {
-    format!("{:.2}", radians.to_degrees())
-}
-
-fn mm(metres: f64) -> String {
-    format!("{:.2}", metres * 1000.0)
-}
-
-fn percent(share: &Proportion) -> String {
-    format!("{:.1}", 100.0 * share.share)
-}
-
-fn with_interval(summary: &Summary, form: fn(f64) -> String) -> String {
-    format!(
-        "{} ({})",
-        form(summary.mean),
-        summary.mean_interval.map(form).join(" to ")
-    )
-}
-
-/// A title, a header and rows; the first `words` columns are words and stand to the left.
-pub(super) fn table(
-    title: &str,
-    header: &[&str],
-    rows: &[Vec<String>],
-    words: usize,
-    terminal: Terminal,
-) -> String {
-    let widths: Vec<usize> = header
-        .iter()
-        .enumerate()
-        .map(|(i, name)| {
-            let cells = rows.iter().map(|row| row[i].chars().count());
-            cells.chain([name.chars().count()]).max().unwrap_or(0)
-        })
-        .collect();
-    let line = |cells: &mut dyn Iterator<Item = &str>| -> String {
-        let cells = cells.zip(&widths).enumerate().map(|(i, (cell, &width))| {
-            let cell = one_line(cell);
-            if i < words {
-                format!("{cell:<width$}")
-            } else {
-                format!("{cell:>width$}")
-            }
-        });
-        cells.collect::<Vec<_>>().join("  ").trim_end().to_owned()
-    };
-    let mut text = terminal.paint(HEADING, title) + "\n";
-    text += &(terminal.paint(FAINT, &line(&mut header.iter().copied())) + "\n");
-    for row in rows {
-        text += &(line(&mut row.iter().map(String::as_str)) + "\n");
-    }
-    text
 }

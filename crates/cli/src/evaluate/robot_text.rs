@@ -1,6 +1,6 @@
 //! The gripper in the base's frame as tables of text.
 
-use super::{UNKNOWN, degrees, known, mm, percent, table};
+use super::text_table::{UNKNOWN, degrees, known, mm, percent, table};
 use crate::terminal::Terminal;
 use pomona_evaluate::{BaseResult, BudgetTerm, Coverage, Evaluation};
 

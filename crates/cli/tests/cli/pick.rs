@@ -264,7 +264,12 @@ fn a_robot_adds_its_plan_and_messages() {
     let alone = run(&["--ros"]);
     assert!(alone.code == 2 && alone.err.contains("--robot"));
     bench.write("r.toml", "[gripper]\njaw_width_m = -1.0\n");
-    run(&["--robot", &r]).refused(&["gripper.jaw_width_m", "metres"]);
+    run(&["--robot", &r]).refused(&[
+        "r.toml",
+        "line 2",
+        "gripper.jaw_width_m = -1.0",
+        "over 0 and at most 1",
+    ]);
     bench.write("r.toml", "[griper]\n");
     let unknown = run(&["--robot", &r]);
     assert!(unknown.code == 2 && unknown.err.contains("r.toml") && unknown.err.contains("griper"));

@@ -51,13 +51,13 @@ fn a_robot_adds_its_plans_and_messages() {
 }
 
 #[test]
-fn the_flange_as_it_was_said_before_is_refused_with_what_to_write() {
+fn an_unknown_setting_of_a_robot_is_refused_with_the_nearest_name() {
     let bench = Bench::new();
     let old = "[gripper]\nwrist_from_tool_translation_m = [0.0, 0.0, 0.2]\n";
     let parts = [
         "robot.toml",
         "wrist_from_tool_",
-        "tcp_from_flange_translation_m = [0.0, 0.0, -0.2]",
+        "did you mean `gripper.tcp_from_flange_translation_m`?",
     ];
     run(&arguments(&bench, old, &[])).refused(&parts);
     assert!(!bench.path("out").exists());

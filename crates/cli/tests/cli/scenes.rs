@@ -35,7 +35,11 @@ fn scenes_are_written_and_never_over_other_things() {
     std::fs::remove_dir_all(bench.path(folder)).unwrap();
     std::fs::create_dir(bench.path(folder)).unwrap();
     bench.write("scenes/lab-x-90-s0/thesis.txt", "mine");
-    write().refused(&["lab-x-90-s0", "no file of a scene"]);
+    write().refused(&[
+        "lab-x-90-s0",
+        "thesis.txt",
+        "is not part of a scene and would be lost",
+    ]);
     assert_eq!(tree(&bench.path("scenes")).len(), 2);
     pomona(&["scenes", "orchards", "--out", &out]).refused(&["orchards", "lab15", "demo"]);
     assert_eq!(pomona(&["scenes", "demo"]).code, 2);

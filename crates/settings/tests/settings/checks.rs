@@ -4,7 +4,10 @@ use crate::oven::{Heat, OvenConfig, TrayConfig};
 
 fn broken(change: impl FnOnce(&mut OvenConfig)) -> String {
     let config = OvenConfig::default().with(change);
-    config.validate().unwrap_err().to_string()
+    config
+        .validate()
+        .expect_err("one setting breaks a rule")
+        .to_string()
 }
 
 #[test]

@@ -52,7 +52,8 @@ impl DetectedApples {
 /// Finds the apples of `frame`: what `detector` sees in the colour image, each box checked against depth.
 ///
 /// A box keeps its place and gets a [`Mark`]; boxes that show one apple are joined into their hull, with the
-/// best of their scores. With [`DetectionConfig::depth_search`], apples that the colour misses are looked for among
+/// best of their scores. With [`DetectionConfig::depth_search`](crate::DetectionConfig::depth_search), apples that the
+/// colour misses are looked for among
 /// the readings outside of the boxes. The frame's own boxes are not read. Detection is by one thread or
 /// many as the detector pleases; the rest runs box by box in parallel and gives the same for any number of threads.
 ///

@@ -1,6 +1,6 @@
 //! The form of `picks.json`, `pomona.picks/1`: what is written from the answers, and read by other programs.
 //!
-//! The program's own stages read the answers ([`FrameAnswer`](crate::FrameAnswer)), never a record.
+//! The program's own stages read the answers ([`FrameAnswer`]), never a record.
 
 mod detection;
 mod fitted;

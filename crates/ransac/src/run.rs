@@ -56,7 +56,7 @@ impl<S, P, C, L, T, B> Ransac<S, P, C, L, T, B> {
     ///
     /// They are the candidates among which a [`Competition`](crate::Competition) chooses. No hypothesis is given up by
     /// the lossless bound, and a rule that waits to be confident of the best model ends too early for the
-    /// smaller ones: better a [`FixedCount`]. One number is taken from `rng`.
+    /// smaller ones: better a [`FixedCount`](crate::FixedCount). One number is taken from `rng`.
     ///
     /// # Errors
     ///

@@ -63,6 +63,7 @@ mod kind;
 mod names;
 mod other_values;
 mod range;
+pub mod readers;
 pub mod rule;
 mod schema;
 mod setting;

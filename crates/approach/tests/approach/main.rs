@@ -5,5 +5,6 @@
 mod free;
 mod order;
 mod path;
+mod readers;
 mod refusals;
 mod world;

@@ -6,5 +6,6 @@
 )]
 
 mod drawn_tree;
+mod every_setting;
 mod orchard_views;
 mod trials;

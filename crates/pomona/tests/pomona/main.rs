@@ -7,6 +7,7 @@
 
 mod answers;
 mod detection;
+mod every_setting;
 mod fallback;
 mod pick;
 mod robot;

@@ -4,3 +4,4 @@ mod checks;
 mod description;
 mod files;
 mod oven;
+mod readers;

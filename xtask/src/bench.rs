@@ -3,9 +3,9 @@
 mod calibration;
 mod clouds;
 mod comparison;
-mod detection;
 mod engine;
 mod interval;
+mod networks;
 mod own;
 mod peers;
 mod table;
@@ -14,6 +14,7 @@ use crate::workspace::{Workspace, cargo, root};
 use anyhow::{Context, Result, ensure};
 use clouds::{Mode, Primitive};
 use comparison::{Comparison, Contest};
+use networks::Networks;
 use std::path::Path;
 use std::process::Command;
 
@@ -30,6 +31,9 @@ pub(crate) struct Args {
     /// Only run the detectors' networks in both runtimes, so many rounds in turns, 30 by default
     #[arg(long, group = "contest", value_name = "N", num_args = 0..=1, require_equals = true, default_missing_value = "30", value_parser = clap::value_parser!(u32).range(1..))]
     detection: Option<u32>,
+    /// Only run the built-in segmenter in both runtimes, so many rounds in turns, 30 by default
+    #[arg(long, group = "contest", value_name = "N", num_args = 0..=1, require_equals = true, default_missing_value = "30", value_parser = clap::value_parser!(u32).range(1..))]
+    segmentation: Option<u32>,
     /// Get those peers first that a package registry holds
     #[arg(long, requires = "contest")]
     install: bool,
@@ -53,7 +57,10 @@ const SUITES: [&str; 3] = ["lab15", "repeat474", "orchard"];
 pub(crate) fn run(args: &Args) -> Result<()> {
     let workspace = Workspace::read()?;
     if let Some(rounds) = args.detection {
-        return detection::run(&workspace, rounds);
+        return networks::run(&workspace, Networks::Detection, rounds);
+    }
+    if let Some(rounds) = args.segmentation {
+        return networks::run(&workspace, Networks::Segmentation, rounds);
     }
     if !args.only_peers && args.calibration.is_none() {
         own::run(&workspace, args.filter.as_deref())?;

@@ -1,5 +1,7 @@
 use crate::terminal::Terminal;
-use crate::{calibrate, completions, config, convert, detect, evaluate, inspect, pick, scenes};
+use crate::{
+    calibrate, completions, config, convert, detect, evaluate, inspect, pick, scenes, segment,
+};
 use clap::{ArgAction, ColorChoice, CommandFactory, Parser, Subcommand, value_parser};
 
 const EXAMPLES: &str = "\
@@ -36,13 +38,15 @@ pub(crate) struct Arguments {
 #[derive(Debug, Subcommand)]
 enum Command {
     /// Compute the picking direction of each apple.
-    Pick(pick::PickArguments),
+    Pick(Box<pick::PickArguments>),
     /// Detect apples in colour images.
     Detect(detect::DetectArguments),
+    /// Tell wood, fruit and posts in colour images, pixel by pixel.
+    Segment(segment::SegmentArguments),
     /// Write synthetic frames with ground truth.
     Scenes(scenes::ScenesArguments),
-    /// Measure methods against ground truth, fitted radii against calipers, or detectors against labels.
-    Evaluate(evaluate::EvaluateArguments),
+    /// Measure methods against ground truth, fitted radii against calipers, or detectors and segmenters against labels.
+    Evaluate(Box<evaluate::EvaluateArguments>),
     /// Calibrate the camera to the robot from samples of points or poses.
     Calibrate(calibrate::CalibrateArguments),
     /// Convert between cloud formats, or a frame to a cloud.
@@ -67,6 +71,7 @@ impl Arguments {
         match &self.command {
             Command::Pick(arguments) => pick::run(arguments, terminal),
             Command::Detect(arguments) => detect::run(arguments, terminal),
+            Command::Segment(arguments) => segment::run(arguments, terminal),
             Command::Scenes(arguments) => scenes::run(arguments),
             Command::Evaluate(arguments) => evaluate::run(arguments, terminal),
             Command::Calibrate(arguments) => calibrate::run(arguments, terminal),

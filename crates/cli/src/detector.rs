@@ -61,6 +61,16 @@ impl DetectorArguments {
 }
 
 impl DetectorSettings {
+    /// The inference backend.
+    pub(crate) fn runtime(&self) -> &RuntimeChoice {
+        &self.runtime
+    }
+
+    /// How a large image is tiled.
+    pub(crate) fn tiles(&self) -> TilingChoice {
+        self.tiles
+    }
+
     /// How to open `model` under these settings.
     pub(crate) fn options(
         &self,
@@ -110,7 +120,7 @@ pub(crate) fn parse_share(text: &str) -> Result<f64, String> {
         .ok_or_else(|| "give a number from 0 to 1".to_owned())
 }
 
-fn parse_runtime(text: &str) -> Result<RuntimeChoice, String> {
+pub(crate) fn parse_runtime(text: &str) -> Result<RuntimeChoice, String> {
     match text {
         "auto" => Ok(RuntimeChoice::Automatic),
         "onnxruntime" => Ok(RuntimeChoice::OnnxRuntime),
@@ -121,7 +131,7 @@ fn parse_runtime(text: &str) -> Result<RuntimeChoice, String> {
     }
 }
 
-fn parse_tiles(text: &str) -> Result<TilingChoice, String> {
+pub(crate) fn parse_tiles(text: &str) -> Result<TilingChoice, String> {
     const MOST: usize = TilingChoice::LARGEST_GRID;
     let side = |text: &str| text.parse().ok().filter(|n| (1..=MOST).contains(n));
     match text {

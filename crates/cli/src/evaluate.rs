@@ -9,6 +9,8 @@ mod methods;
 mod results;
 mod robot;
 mod robot_text;
+mod segmentation;
+mod segmentation_text;
 mod suites;
 mod suites_text;
 mod text_table;
@@ -31,6 +33,16 @@ pub(crate) fn run(arguments: &EvaluateArguments, terminal: Terminal) -> anyhow::
             terminal,
         );
     }
+    if let Some(folder) = &arguments.segmentation.segmentation {
+        return segmentation::run(
+            &arguments.segmentation,
+            arguments.detection.settings(),
+            folder,
+            (arguments.count, arguments.seed),
+            &arguments.results,
+            terminal,
+        );
+    }
     let pickers = pickers(arguments)?;
     let methods: Vec<&dyn PickMethod> = pickers.iter().map(|p| p as &dyn PickMethod).collect();
     match &arguments.calipers {
@@ -47,6 +59,7 @@ mod tests {
     use detection::DetectionArguments;
     use results::{REPORT, Results};
     use robot::RobotArguments;
+    use segmentation::SegmentationArguments;
     use std::path::PathBuf;
     use suites::{APPLES, EVALUATION};
 
@@ -69,6 +82,7 @@ mod tests {
                 calibration_poses: 15,
             },
             detection: DetectionArguments::default(),
+            segmentation: SegmentationArguments::default(),
             settings: SettingValues::default(),
         }
     }

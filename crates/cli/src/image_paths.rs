@@ -1,9 +1,7 @@
 use anyhow::{anyhow, bail};
+use pomona_cloud::Frame;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
-
-/// A frame's colour image, by its names.
-const COLOR: [&str; 3] = ["color.png", "color.jpg", "color.jpeg"];
 
 /// One image and the name that its results bear.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -78,7 +76,7 @@ fn is_image(path: &Path) -> bool {
 }
 
 fn frame(folder: &Path) -> Option<NamedImage> {
-    let path = COLOR
+    let path = Frame::COLOR_FILES
         .iter()
         .map(|name| folder.join(name))
         .find(|path| path.is_file())?;

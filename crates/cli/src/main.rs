@@ -19,6 +19,8 @@ mod pick;
 mod picture;
 mod progress;
 mod scenes;
+mod segment;
+mod segmenter;
 mod settings;
 mod summary;
 mod table;

@@ -23,7 +23,6 @@ pub struct Frame {
     pub boxes: Option<Vec<PixelBox>>,
 }
 
-const COLOR: &[&str] = &["color.png", "color.jpg", "color.jpeg"];
 const CAMERA: &[&str] = &[
     "camera.json",
     "camera.yaml",
@@ -31,12 +30,17 @@ const CAMERA: &[&str] = &[
     "camera_info.yaml",
     "intrinsic.json",
 ];
-const BOXES: &[&str] = &["boxes.xml", "boxes.json", "boxes.txt"];
 
 /// The names under which [`Frame::write`] writes.
 const WRITTEN: [&str; 4] = ["color.png", "depth.png", "camera.json", "boxes.xml"];
 
 impl Frame {
+    /// The names of the colour image in a frame's folder; the first that is there is read.
+    pub const COLOR_FILES: [&str; 3] = ["color.png", "color.jpg", "color.jpeg"];
+
+    /// The names of the file with the boxes; the first that is there is read.
+    pub const BOX_FILES: [&str; 3] = ["boxes.xml", "boxes.json", "boxes.txt"];
+
     /// Reads a frame's folder: `color.png` or `.jpg`, `depth.png`, `camera.json` (or a ROS
     /// `camera.yaml`, `camera_info.yaml`, or Open3D's `intrinsic.json`), and
     /// `boxes.xml`, `.json` or `.txt` where there is one. Of several names the first is read.
@@ -50,7 +54,7 @@ impl Frame {
         if let Err(source) = fs::read_dir(dir) {
             return Err(FileError::read(dir, source).into());
         }
-        let color = ColorImage::read(required(dir, COLOR, "color.png or color.jpg")?)?;
+        let color = ColorImage::read(required(dir, &Self::COLOR_FILES, "color.png or color.jpg")?)?;
         let depth = DepthImage::read(required(dir, &["depth.png"], "depth.png")?)?;
         let camera = Camera::read(required(
             dir,
@@ -65,7 +69,7 @@ impl Frame {
             boxes: None,
         };
         frame.validate_as(dir)?;
-        if let Some(path) = present(dir, BOXES) {
+        if let Some(path) = present(dir, &Self::BOX_FILES) {
             frame.boxes = Some(read_boxes(path, frame.color.width, frame.color.height)?);
         }
         Ok(frame)
@@ -86,7 +90,10 @@ impl Frame {
             } else {
                 &WRITTEN[..3]
             };
-            let names = COLOR.iter().chain(CAMERA).chain(BOXES);
+            let names = Self::COLOR_FILES
+                .iter()
+                .chain(CAMERA)
+                .chain(&Self::BOX_FILES);
             if let Some(name) = names
                 .filter(|n| !kept.contains(n))
                 .find(|n| dir.join(n).exists())

@@ -3,6 +3,7 @@
 mod claim;
 mod color;
 mod depth;
+mod gray;
 mod jpeg;
 mod png;
 

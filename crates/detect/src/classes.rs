@@ -1,5 +1,4 @@
-use crate::names::nearest;
-use pomona_network::Malformed;
+use pomona_network::{Malformed, nearest};
 use serde::Deserialize;
 
 /// Which of the model's classes is an apple.

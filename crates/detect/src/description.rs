@@ -4,16 +4,13 @@ use crate::{
     classes::ClassChoice,
     error::DetectError,
     family::{Coordinates, Family},
-    names::nearest,
 };
 use pomona_network::{
     ChannelOrder, Malformed, NetworkError, Padding, Preparation, TilingChoice, TilingOptions,
+    description,
 };
 use serde::Deserialize;
-use std::{
-    fs, io,
-    path::{Path, PathBuf},
-};
+use std::path::{Path, PathBuf};
 
 /// What a model's file does not say about it, from a small TOML beside it; everything is optional.
 ///
@@ -82,7 +79,7 @@ pub struct ModelDescription {
 impl ModelDescription {
     /// Where a model's description lies: `DIR/MODEL.toml` for `DIR/MODEL.onnx`.
     pub fn path_beside(model: &Path) -> PathBuf {
-        model.with_extension("toml")
+        description::path_beside(model)
     }
 
     /// Reads the description beside a model; one that says nothing where there is no such file.
@@ -91,11 +88,9 @@ impl ModelDescription {
     ///
     /// [`NetworkError::Read`], [`NetworkError::Model`].
     pub fn beside(model: &Path) -> Result<Self, DetectError> {
-        let path = Self::path_beside(model);
-        match fs::read_to_string(&path) {
-            Ok(text) => Self::parse(&text, &path.display().to_string()),
-            Err(source) if source.kind() == io::ErrorKind::NotFound => Ok(Self::default()),
-            Err(source) => Err(NetworkError::Read { path, source }.into()),
+        match description::read_beside(model)? {
+            Some((text, origin)) => Self::parse(&text, &origin),
+            None => Ok(Self::default()),
         }
     }
 
@@ -106,22 +101,8 @@ impl ModelDescription {
     /// [`NetworkError::Model`] for what is not TOML, for a key that does not exist, and for a value that is
     /// none of those the key can have.
     pub fn parse(text: &str, origin: &str) -> Result<Self, DetectError> {
-        let description: Self = toml::from_str(text).map_err(|error| {
-            let (line, key) = line_and_key(text, error.span().map_or(0, |span| span.start));
-            let remedy = match key {
-                Some(key) if error.message().starts_with("unknown field") => {
-                    let known = known_keys(error.message());
-                    format!("the nearest keys are {}", nearest(key, &known))
-                }
-                _ => "docs/detection.md lists the keys and their values".to_owned(),
-            };
-            let key = key.map_or_else(String::new, |key| format!(", `{key}`"));
-            let problem = error.message().trim().replace('\n', " ");
-            NetworkError::model(
-                origin,
-                Malformed::new(format!("line {line}{key}"), problem, remedy),
-            )
-        })?;
+        let remedy = "docs/detection.md lists the keys and their values";
+        let description: Self = description::parse(text, origin, remedy)?;
         description
             .check()
             .map_err(|fault| NetworkError::model(origin, fault))?;
@@ -154,40 +135,30 @@ impl ModelDescription {
     /// Refuses values that make no sense for any model.
     pub(crate) fn check(&self) -> Result<(), Malformed> {
         let refused = [
-            self.classes.as_deref().and_then(values::class_names),
-            self.input_size.and_then(values::input_size),
+            self.classes.as_deref().and_then(description::class_names),
+            self.input_size.and_then(description::input_size),
             self.strides.as_deref().and_then(values::strides),
             self.anchors.as_deref().and_then(values::anchors),
-            self.scale.and_then(values::scale),
-            self.mean.and_then(values::mean),
-            self.std.and_then(values::std),
-            self.threshold.and_then(values::threshold),
-            self.nms_iou.and_then(values::nms_iou),
-            self.tile.and_then(values::tile),
+            self.scale.and_then(description::scale),
+            self.mean.and_then(description::mean),
+            self.std.and_then(description::std),
+            self.threshold
+                .and_then(|share| description::not_a_share(share, "threshold", "a score")),
+            self.nms_iou
+                .and_then(|share| description::not_a_share(share, "nms_iou", "an IoU")),
+            self.tile.and_then(description::tile),
             self.tile
                 .zip(self.tile_overlap)
-                .and_then(|(tile, overlap)| values::tile_overlap(tile, overlap)),
+                .and_then(|(tile, overlap)| description::tile_overlap(tile, overlap)),
         ];
         refused.into_iter().flatten().next().map_or(Ok(()), Err)
     }
 }
 
-/// The keys that there are, from the message about one that there is not: it quotes that one, and then all of them.
-fn known_keys(message: &str) -> Vec<&str> {
-    message.split('`').skip(3).step_by(2).collect()
-}
-
-/// Number of the line that holds this byte, from 1, and the key that stands before its equals sign.
-fn line_and_key(text: &str, byte: usize) -> (usize, Option<&str>) {
-    let before = text.get(..byte).unwrap_or_default();
-    let line = before.matches('\n').count();
-    let key = text.lines().nth(line).and_then(|line| line.split_once('='));
-    (line + 1, key.map(|(key, _)| key.trim()))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::fs;
 
     fn message(text: &str) -> String {
         ModelDescription::parse(text, "m.toml")
@@ -218,7 +189,7 @@ mod tests {
         // Those are all keys, but for the other spelling of `licence`.
         let unknown = message("zzz = 1");
         let list = unknown.split_once("`: ").unwrap().1;
-        let known = known_keys(list.split_once(';').unwrap().0);
+        let known = description::known_keys(list.split_once(';').unwrap().0);
         let named = text.lines().filter_map(|line| line.split_once(" = "));
         let named: Vec<&str> = named.map(|(key, _)| key.trim()).collect();
         for key in known.iter().filter(|key| **key != "license") {

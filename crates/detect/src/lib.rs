@@ -84,7 +84,6 @@ mod detection;
 mod error;
 mod family;
 mod fuse;
-mod names;
 mod onnx_detector;
 mod open;
 mod options;

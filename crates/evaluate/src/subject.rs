@@ -144,6 +144,7 @@ impl Subject {
             Source::Folder(path) => Ok(Scene {
                 frame: Frame::read(path)?,
                 truth: Truth::read(path)?,
+                classes: None,
             }),
         }
     }

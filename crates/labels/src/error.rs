@@ -1,6 +1,7 @@
 use pomona_cloud::CloudError;
 use pomona_detect::DetectError;
 use pomona_report::plot::PlotError;
+use pomona_segment::SegmentError;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
@@ -36,6 +37,14 @@ pub enum LabelsError {
         image: PathBuf,
         /// What it said.
         source: DetectError,
+    },
+    /// A segmenter could not work on an image.
+    #[error("{}: {source}", .image.display())]
+    Segmentation {
+        /// The image.
+        image: PathBuf,
+        /// What it said.
+        source: Box<SegmentError>,
     },
     /// A plot could not be drawn.
     #[error(transparent)]

@@ -38,10 +38,13 @@
 //! - [`evaluate_detections`] gives a [`DetectionEvaluation`]: for each source its figures with intervals from resampled
 //!   images, recall by size ([`SizeClass`]) and the worst images; for each pair of sources the paired differences.
 //! - [`detection_page`] is the content of `report.html`.
+//! - [`ImageStrokes`] are the centre lines of wood, peduncles and posts, drawn by eye in an image ([`read_strokes`]).
+//!   [`evaluate_segmentation`] measures on them what a segmenter calls wood: recall along the lines, precision of
+//!   what is marked, calibration; [`agreement`] compares two people's strokes.
 //!
 //! # Not here
 //!
-//! Running networks (`pomona-detect`), reading a single file of boxes (`pomona-cloud`), pictures (`pomona-view`),
+//! Running networks (`pomona-detect`, `pomona-segment`), reading a single file of boxes (`pomona-cloud`), pictures (`pomona-view`),
 //! picking directions against truth (`pomona-evaluate`).
 //!
 //! # References
@@ -53,6 +56,8 @@ mod dataset;
 mod detection;
 mod error;
 mod resampling;
+mod segmentation;
+mod strokes;
 
 pub use dataset::{LabelForm, LabelledDataset, LabelledImage};
 pub use detection::{
@@ -63,3 +68,13 @@ pub use detection::{
 };
 pub use error::LabelsError;
 pub use resampling::Estimate;
+pub use segmentation::{
+    Agreement, CalibrationBin, LevelFigures, MaskReader, SEGMENTATION_SCHEMA,
+    SegmentationDifference, SegmentationEvaluation, SegmentationImage, SegmentationOptions,
+    SegmentationResult, SegmentationSource, StrokeSummary, WidthClass, WidthRecall,
+    WorstSegmentation, agreement, evaluate_segmentation, photograph, segmentation_images,
+    segmentation_page,
+};
+pub use strokes::{
+    ImageStrokes, PathSample, Stroke, StrokeClass, StrokePoint, parse_strokes, read_strokes,
+};

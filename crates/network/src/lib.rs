@@ -93,10 +93,12 @@
 //! - ONNX, Open Neural Network Exchange, version 1.17, `onnx.proto3`.
 //! - Protocol Buffers documentation, Encoding.
 
+pub mod description;
 mod error;
 mod image_input;
 mod image_network;
 mod letterbox;
+mod names;
 mod network;
 mod onnx_file;
 mod preparation;
@@ -111,6 +113,7 @@ pub use error::NetworkError;
 pub use image_input::{LARGEST_INPUT_SIDE, input_size};
 pub use image_network::{ImageNetwork, check_image};
 pub use letterbox::Letterbox;
+pub use names::nearest;
 pub use network::{Network, RuntimeReport};
 pub use pomona_files::Malformed;
 pub use preparation::{ChannelOrder, Padding, Preparation};

@@ -104,7 +104,7 @@ pub use light::Light;
 pub use orchard::Orchard;
 pub use repeat::{Density, Repeat};
 pub use row::Row;
-pub use scene::Scene;
+pub use scene::{CLASSES_FILE, Scene, SceneClass};
 pub use sensor::{Axial, Bias, Dropout, Edges, Sensor, Sunlight, Thin};
 pub use shot::Shot;
 pub use suite::{Case, Suite};

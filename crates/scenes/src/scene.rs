@@ -1,6 +1,6 @@
 use crate::error::SceneError;
 use crate::truth::{TRUTH_FILE, Truth};
-use pomona_cloud::Frame;
+use pomona_cloud::{Frame, GrayImage};
 use pomona_files::{FileError, temporary_beside};
 use std::path::{Path, PathBuf};
 
@@ -11,10 +11,12 @@ pub struct Scene {
     pub frame: Frame,
     /// What it should find.
     pub truth: Truth,
+    /// The [`SceneClass`] of each pixel of the colour image; `None` where it is not known.
+    pub classes: Option<GrayImage>,
 }
 
 impl Scene {
-    /// Writes the frame's files and `truth.json` into `folder`, whole or not at all.
+    /// Writes the frame's files, `classes.png` and `truth.json` into `folder`, whole or not at all.
     ///
     /// The files come together in a folder beside it, which then takes its
     /// name. A scene that was there before is replaced; a folder with any other file is refused.
@@ -42,16 +44,38 @@ impl Scene {
     fn write_parts(&self, folder: &Path) -> Result<(), SceneError> {
         std::fs::create_dir_all(folder).map_err(|e| FileError::write(folder, e))?;
         self.frame.write(folder)?;
+        if let Some(classes) = &self.classes {
+            classes.write(folder.join(CLASSES_FILE))?;
+        }
         self.truth.write(folder.join(TRUTH_FILE))
     }
 }
 
+/// The file of a scene's [`SceneClass`]es.
+pub const CLASSES_FILE: &str = "classes.png";
+
+/// What a pixel shows, as its value in [`Scene::classes`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u8)]
+#[non_exhaustive]
+pub enum SceneClass {
+    /// Leaves, the backdrop and the sky.
+    Rest = 0,
+    /// Branches and spurs.
+    Wood = 1,
+    /// Green stems: the stalks of fruit, and those of leaves.
+    Peduncle = 2,
+    /// Apples.
+    Fruit = 3,
+}
+
 /// The files of a scene's folder.
-const FILES: [&str; 5] = [
+const FILES: [&str; 6] = [
     "color.png",
     "depth.png",
     "camera.json",
     "boxes.xml",
+    CLASSES_FILE,
     TRUTH_FILE,
 ];
 

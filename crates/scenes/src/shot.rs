@@ -1,12 +1,12 @@
 use crate::raycast::{Raycast, raycast};
-use crate::scene::Scene;
+use crate::scene::{Scene, SceneClass};
 use crate::sensing::sense;
 use crate::sensor::Sensor;
 use crate::shade::shade;
 use crate::truth::{AppleTruth, Truth};
 use crate::visibility::look_at;
-use crate::world::World;
-use pomona_cloud::{Camera, ColorImage, Frame, PixelBox};
+use crate::world::{Bark, Owner, Shape, World};
+use pomona_cloud::{Camera, ColorImage, Frame, GrayImage, PixelBox};
 
 /// How a frame is taken of a world.
 #[derive(Clone, Debug, PartialEq)]
@@ -105,23 +105,61 @@ impl Shot {
         truth.seed = Some(self.seed);
         truth.sensor = Some(sensor.name.to_string());
         truth.camera = (stated != real).then_some(real);
-        Scene { frame, truth }
+        let classes = shifted_classes(&class_of_pixels(world, cast), cast, sensor.color_shift_px);
+        Scene {
+            frame,
+            truth,
+            classes: Some(classes),
+        }
+    }
+}
+
+/// The class of each pixel's part.
+fn class_of_pixels(world: &World, cast: &Raycast) -> Vec<u8> {
+    let class = |part: &u32| {
+        let class = match world.parts.get(*part as usize).map(|p| (p.owner, p.shape)) {
+            Some((Owner::Apple(_), _)) => SceneClass::Fruit,
+            Some((_, Shape::Limb(_, Bark::Green))) => SceneClass::Peduncle,
+            Some((_, Shape::Limb(..))) => SceneClass::Wood,
+            _ => SceneClass::Rest,
+        };
+        class as u8
+    };
+    cast.part.iter().map(class).collect()
+}
+
+/// The classes moved with the colour image.
+fn shifted_classes(classes: &[u8], cast: &Raycast, shift: (i32, i32)) -> GrayImage {
+    let (width, height) = (cast.width, cast.height);
+    GrayImage {
+        width,
+        height,
+        values: shifted_values(classes, (width, height), shift),
     }
 }
 
 /// The image moved right and down; its edge is repeated where nothing comes in.
-fn shifted(image: ColorImage, (right, down): (i32, i32)) -> ColorImage {
-    if (right, down) == (0, 0) {
+fn shifted(image: ColorImage, shift: (i32, i32)) -> ColorImage {
+    if shift == (0, 0) {
         return image;
     }
-    let (w, h) = (image.width as i64, image.height as i64);
-    let mut pixels = Vec::with_capacity(image.pixels.len());
+    let pixels = shifted_values(&image.pixels, (image.width, image.height), shift);
+    ColorImage { pixels, ..image }
+}
+
+fn shifted_values<T: Copy>(
+    values: &[T],
+    (width, height): (usize, usize),
+    (right, down): (i32, i32),
+) -> Vec<T> {
+    let (w, h) = (width as i64, height as i64);
+    let mut moved = Vec::with_capacity(values.len());
     for y in 0..h {
         let from_y = (y - i64::from(down)).clamp(0, h - 1);
-        let row = &image.pixels[(from_y * w) as usize..((from_y + 1) * w) as usize];
-        pixels.extend((0..w).map(|x| row[(x - i64::from(right)).clamp(0, w - 1) as usize]));
+        let row = &values[(from_y * w) as usize..((from_y + 1) * w) as usize];
+        moved.extend((0..w).map(|x| row[(x - i64::from(right)).clamp(0, w - 1) as usize]));
     }
-    ColorImage { pixels, ..image }
+    moved
 }
 
 /// A box that moves with the colour image, inside it.

@@ -37,6 +37,8 @@
 //! [`draw_boxes`] draws only boxes, each a [`BoxMark`], and [`contact_sheet`] arranges such pictures on a contact
 //! sheet.
 //!
+//! [`tint`] mixes a colour into pixels, such as those of a mask.
+//!
 //! [`colored_cloud`] colours the points of a cloud in the same way and adds the direction as points, so that any PLY
 //! viewer shows it; [`render_cloud`] renders a cloud from a [`Viewpoint`].
 //!
@@ -77,6 +79,7 @@ mod projection;
 mod render;
 mod sheet;
 mod text;
+mod tint;
 mod viewpoint;
 
 pub use box_picture::{BoxKind, BoxMark, draw_boxes};
@@ -86,4 +89,5 @@ pub use mark::AppleMark;
 pub use overlay::Overlay;
 pub use render::{RenderOptions, render_cloud};
 pub use sheet::{ContactSheetImage, contact_sheet};
+pub use tint::tint;
 pub use viewpoint::{Projection, Viewpoint};

@@ -21,7 +21,7 @@ const LAYERS: &[&[&str]] = &[
         "pomona-transforms",
     ],
     &["pomona-approach", "pomona-calibrate", "pomona-network"],
-    &["pomona-detect"],
+    &["pomona-detect", "pomona-segment"],
     &["pomona", "pomona-scenes", "pomona-view"],
     &["pomona-fusion", "pomona-messages"],
     &["pomona-evaluate", "pomona-labels"],

@@ -3,6 +3,7 @@
 use super::detection::DetectionArguments;
 use super::results::Results;
 use super::robot::RobotArguments;
+use super::segmentation::SegmentationArguments;
 use crate::settings::SettingValues;
 use clap::Args;
 use clap::builder::PossibleValuesParser;
@@ -22,9 +23,12 @@ Examples:
   pomona evaluate --detection tiles --out out         the built-in model on images with labels
   pomona evaluate --detection tiles --model built-in --model mine.onnx --boxes theirs.json --out out
                                                       several in one run, compared in pairs
+  pomona evaluate --segmentation tiles --strokes strokes.txt --out out
+                                                      wood of the built-in model on strokes drawn by eye
 
 Writes evaluation.json, apples.csv and report.html into DIR; with --calipers calipers.json and report.html; with \
---detection detection.json, report.html and a sheet of each detector's worst images, worst-N.png.
+--detection detection.json, report.html and a sheet of each detector's worst images, worst-N.png; with --segmentation \
+segmentation.json and the same.
 A frame without ground truth can only be evaluated with --calipers: a CSV with the columns box_name and diameter_mm.";
 
 #[derive(Debug, Args)]
@@ -32,7 +36,7 @@ A frame without ground truth can only be evaluated with --calipers: a CSV with t
 pub(crate) struct EvaluateArguments {
     /// Suites (see `pomona scenes --list`), SUITE@N for scenes from seed N on, frames with truth.json, or
     /// folders of such frames; with --calipers any frames.
-    #[arg(required_unless_present = "detection", value_name = "SUITE|FRAME")]
+    #[arg(required_unless_present_any = ["detection", "segmentation"], value_name = "SUITE|FRAME")]
     pub(super) subjects: Vec<String>,
     #[command(flatten)]
     pub(super) results: Results,
@@ -43,10 +47,10 @@ pub(crate) struct EvaluateArguments {
     /// extension; may be repeated. The options under Settings do not change it.
     #[arg(long = "variant", value_name = "FILE")]
     pub(super) variants: Vec<PathBuf>,
-    /// Seed of the methods, or of the intervals with --detection; scenes have their own seeds.
+    /// Seed of the methods, or of the intervals with --detection and --segmentation; scenes have their own seeds.
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(super) seed: u64,
-    /// Only the first N frames of each suite, or images with --detection.
+    /// Only the first N frames of each suite, or images with --detection and --segmentation.
     #[arg(long, value_name = "N")]
     pub(super) count: Option<usize>,
     /// Measured diameters (CSV), by box name: compares fitted radii with them, and the centres of each pair of frames.
@@ -56,6 +60,8 @@ pub(crate) struct EvaluateArguments {
     pub(super) robot: RobotArguments,
     #[command(flatten)]
     pub(super) detection: DetectionArguments,
+    #[command(flatten)]
+    pub(super) segmentation: SegmentationArguments,
     #[command(flatten)]
     pub(super) settings: SettingValues,
 }

@@ -137,6 +137,11 @@ impl Opened {
 }
 
 impl DetectionArguments {
+    /// How networks are run.
+    pub(super) fn settings(&self) -> &DetectorSettings {
+        &self.settings
+    }
+
     /// Opens the models and reads the boxes, each under a name of its own.
     fn open(&self, dataset: &LabelledDataset, terminal: Terminal) -> anyhow::Result<Vec<Opened>> {
         let models = match (&*self.models, &*self.boxes) {

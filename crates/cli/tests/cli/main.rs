@@ -22,6 +22,7 @@ mod robot;
 mod scene;
 mod scenes;
 mod schema;
+mod segment;
 mod settings;
 mod shell;
 mod tutorial;

@@ -1,5 +1,5 @@
 use super::claim::check_claim;
-use crate::{ColorImage, DepthImage};
+use crate::{ColorImage, DepthImage, GrayImage};
 use png::{BitDepth, ColorType, Decoder, Encoder, Reader, Transformations};
 use pomona_files::Malformed;
 use std::io::Cursor;
@@ -113,6 +113,43 @@ pub(super) fn parse_depth(bytes: &[u8]) -> Result<DepthImage, Malformed> {
         height,
         readings,
     })
+}
+
+pub(super) fn parse_gray(bytes: &[u8]) -> Result<GrayImage, Malformed> {
+    let mut reader = open(bytes, Transformations::EXPAND)?;
+    let (color, bits) = reader.output_color_type();
+    if (color, bits) != (ColorType::Grayscale, BitDepth::Eight) {
+        let problem = format!(
+            "a {}-bit {color:?} image where a mask must be 8-bit grey",
+            bits as u8
+        );
+        let remedy = "store the mask as 8-bit grey PNG without transparency";
+        return Err(Malformed::new("PNG header", problem, remedy));
+    }
+    let (width, height) = (reader.info().width as usize, reader.info().height as usize);
+    let values = pixel_bytes(&mut reader)?;
+    if values.len() != width * height {
+        return Err(fault(format!(
+            "{} values came out for {width}x{height}",
+            values.len()
+        )));
+    }
+    Ok(GrayImage {
+        width,
+        height,
+        values,
+    })
+}
+
+pub(super) fn format_gray(image: &GrayImage) -> Result<Vec<u8>, Malformed> {
+    let kind = (ColorType::Grayscale, BitDepth::Eight);
+    encode(
+        image.width,
+        image.height,
+        image.values.len(),
+        &image.values,
+        kind,
+    )
 }
 
 pub(super) fn format_color(image: &ColorImage) -> Result<Vec<u8>, Malformed> {

@@ -1,16 +1,14 @@
 use super::images::{LabelForm, LabelledDataset, LabelledImage};
 use super::listing::folder_name;
 use crate::error::LabelsError;
-use pomona_cloud::{ColorImage, read_labels};
+use pomona_cloud::{ColorImage, Frame, read_labels};
 use std::path::{Path, PathBuf};
-
-const COLOR: [&str; 3] = ["color.png", "color.jpg", "color.jpeg"];
-const BOXES: [&str; 3] = ["boxes.xml", "boxes.json", "boxes.txt"];
 
 /// Whether a folder is a frame's, with boxes or without.
 pub(super) fn is_frame(folder: &Path) -> bool {
-    let rest = ["depth.png"].into_iter().chain(BOXES);
-    present(folder, &COLOR).is_some() && rest.into_iter().any(|name| folder.join(name).is_file())
+    let rest = ["depth.png"].into_iter().chain(Frame::BOX_FILES);
+    present(folder, &Frame::COLOR_FILES).is_some()
+        && rest.into_iter().any(|name| folder.join(name).is_file())
 }
 
 fn present(folder: &Path, names: &[&str]) -> Option<PathBuf> {
@@ -24,7 +22,10 @@ fn present(folder: &Path, names: &[&str]) -> Option<PathBuf> {
 pub(super) fn read(folder: &Path, folders: &[PathBuf]) -> Result<LabelledDataset, LabelsError> {
     let mut dataset = LabelledDataset::new(folder_name(folder), LabelForm::Frames, Vec::new());
     for frame in folders {
-        let (Some(path), boxes) = (present(frame, &COLOR), present(frame, &BOXES)) else {
+        let (Some(path), boxes) = (
+            present(frame, &Frame::COLOR_FILES),
+            present(frame, &Frame::BOX_FILES),
+        ) else {
             continue;
         };
         let Some(boxes) = boxes else {
@@ -38,7 +39,7 @@ pub(super) fn read(folder: &Path, folders: &[PathBuf]) -> Result<LabelledDataset
         });
     }
     if dataset.images.is_empty() {
-        let problem = format!("no {} in the frame", BOXES.join(", "));
+        let problem = format!("no {} in the frame", Frame::BOX_FILES.join(", "));
         return Err(LabelsError::malformed(
             folder,
             &problem,

@@ -8,3 +8,4 @@
 mod datasets;
 mod detection;
 mod pycocotools;
+mod segmentation;

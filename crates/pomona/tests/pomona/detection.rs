@@ -107,7 +107,7 @@ fn boxes_of_a_file_leave_no_trace_of_detection_in_the_record() {
 
 #[test]
 fn threads_change_nothing() {
-    let Scene { frame, truth } = Suite::Orchard.cases().nth(3).unwrap().scene();
+    let Scene { frame, truth, .. } = Suite::Orchard.cases().nth(3).unwrap().scene();
     let mut config = Config::default();
     config.detection.depth_search = true;
     let run = |threads: usize| {
@@ -128,7 +128,7 @@ fn threads_change_nothing() {
 fn depth_keeps_apples() {
     let mut refused = 0;
     for case in Suite::Orchard.cases().take(10) {
-        let Scene { frame, truth } = case.scene();
+        let Scene { frame, truth, .. } = case.scene();
         let well_seen: Vec<AppleTruth> = truth
             .apples
             .into_iter()

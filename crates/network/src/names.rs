@@ -5,7 +5,7 @@ const OFFERED: usize = 3;
 
 /// The names that are most like `wanted`, best first, three at most and each in backquotes; all of them where there
 /// are no more, so that a message always has something to offer.
-pub(crate) fn nearest(wanted: &str, names: &[&str]) -> String {
+pub fn nearest(wanted: &str, names: &[&str]) -> String {
     let wanted = wanted.to_lowercase();
     let mut ranked: Vec<(usize, &str)> = names
         .iter()

@@ -4,7 +4,9 @@
 //! one thread, so that what else the machine does meets all alike. The network `yolov3-tiny` of noise is always
 //! among them. A frame is run as a detector runs it, tiled on two threads, with the first model given.
 
-#[path = "../../network/tests/network/onnx.rs"]
+mod timing;
+
+#[path = "../../../network/tests/network/onnx.rs"]
 #[expect(
     dead_code,
     reason = "the tests of pomona-network write more kinds of networks"
@@ -13,85 +15,10 @@ mod onnx;
 
 use pomona_cloud::ColorImage;
 use pomona_detect::{Detector, DetectorOptions};
-use pomona_network::{ModelSource, Network, Port, RuntimeChoice, Tensor, open_network};
-use serde::Serialize;
+use pomona_network::{ModelSource, Network, Port, Tensor, open_network};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use std::time::Instant;
-
-/// What was measured, or why not.
-#[derive(Serialize)]
-struct Line {
-    /// The network, or the job.
-    name: String,
-    runtime: String,
-    threads: usize,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    absent: Option<String>,
-    /// Each round's time.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    milliseconds: Vec<f64>,
-    /// Each round's time on the processor, of all threads together: what a busy machine adds is not in it. Empty
-    /// where the system does not tell.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    processor_milliseconds: Vec<f64>,
-    /// What came out, for the frame.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    detections: Option<usize>,
-}
-
-impl Line {
-    fn new(name: &str, runtime: &str, threads: usize) -> Self {
-        Self {
-            name: name.to_owned(),
-            runtime: runtime.to_owned(),
-            threads,
-            absent: None,
-            milliseconds: Vec::new(),
-            processor_milliseconds: Vec::new(),
-            detections: None,
-        }
-    }
-
-    fn record(&mut self, clock: &Clock) {
-        self.milliseconds
-            .push(clock.start.elapsed().as_secs_f64() * 1e3);
-        let processor = processor_time().zip(clock.processor);
-        self.processor_milliseconds
-            .extend(processor.map(|(now, before)| now - before));
-    }
-}
-
-/// When a run began.
-struct Clock {
-    start: Instant,
-    processor: Option<f64>,
-}
-
-impl Clock {
-    fn start() -> Self {
-        let processor = processor_time();
-        Self {
-            start: Instant::now(),
-            processor,
-        }
-    }
-}
-
-/// Milliseconds that this process's living threads have been on a processor, where Linux tells.
-fn processor_time() -> Option<f64> {
-    let mut nanoseconds = 0.0;
-    for thread in std::fs::read_dir("/proc/self/task").ok()?.flatten() {
-        let text = std::fs::read_to_string(thread.path().join("schedstat")).ok()?;
-        nanoseconds += text.split(' ').next()?.parse::<f64>().ok()?;
-    }
-    Some(nanoseconds / 1e6)
-}
-
-const RUNTIMES: [(&str, RuntimeChoice); 2] = [
-    ("onnxruntime", RuntimeChoice::OnnxRuntime),
-    ("embedded", RuntimeChoice::Embedded),
-];
+use timing::{Clock, Line, RUNTIMES};
 
 /// Side of the square that networks with an open size are fed, in pixels.
 const SIDE: usize = 416;

@@ -1,10 +1,12 @@
-//! Networks in both runtimes, beside each other in the same rounds; see `crates/detect/examples/network_bench.rs`.
+//! Networks in both runtimes, beside each other in the same rounds; see `crates/detect/examples/network_bench/` and
+//! `crates/segment/examples/segment_bench.rs`.
 
 use super::interval::median;
 use crate::workspace::{Workspace, cargo, root};
 use anyhow::{Context, Result, ensure};
 use serde::{Deserialize, Serialize};
 use std::{
+    ffi::OsString,
     fmt::Write as _,
     fs,
     path::{Path, PathBuf},
@@ -57,49 +59,93 @@ const MODELS: [(&str, &str); 2] = [
 ];
 
 /// A recorded frame, for those who have it.
-const FRAME: &str = "../shared/frames/orchard-1218/color.png";
+const FRAME: &str = "../shared/frames/orchard-1218";
 
-/// Measures so many rounds, prints a table and writes `detection.json`.
-pub(super) fn run(workspace: &Workspace, rounds: u32) -> Result<()> {
-    let lines = measure(&build_ours(workspace)?, rounds)?;
+/// Its image.
+const COLOR: &str = "color.png";
+
+/// A benchmark of networks.
+#[derive(Clone, Copy)]
+pub(super) enum Networks {
+    /// Those of detectors.
+    Detection,
+    /// The built-in segmenter.
+    Segmentation,
+}
+
+impl Networks {
+    /// The package and the program in its examples.
+    fn example(self) -> (&'static str, &'static str) {
+        match self {
+            Self::Detection => ("pomona-detect", "network_bench"),
+            Self::Segmentation => ("pomona-segment", "segment_bench"),
+        }
+    }
+
+    fn file(self) -> &'static str {
+        match self {
+            Self::Detection => "detection.json",
+            Self::Segmentation => "segmentation.json",
+        }
+    }
+
+    /// Arguments that follow the rounds: models and images that are here.
+    fn arguments(self) -> Vec<OsString> {
+        let frame = root().join(FRAME);
+        let frame_is_here = frame.join(COLOR).exists();
+        let mut arguments: Vec<OsString> = Vec::new();
+        match self {
+            Self::Detection => {
+                for (name, path) in MODELS {
+                    let path = root().join(path);
+                    if path.exists() {
+                        arguments.push(format!("{name}={}", path.display()).into());
+                    } else {
+                        println!("absent: {name} ({} is not here)", path.display());
+                    }
+                }
+                if frame_is_here {
+                    arguments.extend(["--frame".into(), frame.join(COLOR).into()]);
+                }
+            }
+            Self::Segmentation => arguments.extend(frame_is_here.then(|| frame.into())),
+        }
+        arguments
+    }
+}
+
+/// Measures so many rounds, prints a table and writes it as JSON.
+pub(super) fn run(workspace: &Workspace, networks: Networks, rounds: u32) -> Result<()> {
+    let lines = measure(&build_ours(workspace, networks)?, networks, rounds)?;
     let rows: Vec<Row> = lines.into_iter().map(Row::of).collect();
     println!("{}", table(&rows));
     let folder = workspace.target_directory.join("bench");
     fs::create_dir_all(&folder).with_context(|| format!("cannot make {}", folder.display()))?;
-    let path = folder.join("detection.json");
+    let path = folder.join(networks.file());
     fs::write(&path, serde_json::to_string_pretty(&rows)?)
         .with_context(|| format!("cannot write {}", path.display()))?;
     println!("all of it: {}", workspace.relative(&path).display());
     Ok(())
 }
 
-fn build_ours(workspace: &Workspace) -> Result<PathBuf> {
+fn build_ours(workspace: &Workspace, networks: Networks) -> Result<PathBuf> {
+    let (package, example) = networks.example();
     let mut command = cargo();
-    command.args(["build", "--release", "--quiet", "--package"]);
-    command.args(["pomona-detect", "--example", "network_bench"]);
+    command.args(["build", "--release", "--quiet", "--package", package]);
+    command.args(["--all-features", "--example", example]);
     let built = command.status().context("cannot start cargo")?;
     ensure!(built.success(), "our own program does not build");
     Ok(workspace
         .target_directory
-        .join("release/examples/network_bench"))
+        .join("release/examples")
+        .join(example))
 }
 
-fn measure(program: &Path, rounds: u32) -> Result<Vec<Line>> {
+fn measure(program: &Path, networks: Networks, rounds: u32) -> Result<Vec<Line>> {
     let mut command = Command::new(program);
-    command.arg(rounds.to_string()).stderr(Stdio::inherit());
-    for (name, path) in MODELS {
-        let path = root().join(path);
-        if path.exists() {
-            command.arg(format!("{name}={}", path.display()));
-        } else {
-            println!("absent: {name} ({} is not here)", path.display());
-        }
-    }
-    let frame = root().join(FRAME);
-    if frame.exists() {
-        command.arg("--frame").arg(frame);
-    }
+    command.arg(rounds.to_string()).args(networks.arguments());
     let output = command
+        .stderr(Stdio::inherit())
         .output()
         .with_context(|| format!("cannot start {}", program.display()))?;
     ensure!(output.status.success(), "the benchmark failed");

@@ -1,0 +1,312 @@
+use super::results::{REPORT, Results, json};
+use super::segmentation_text;
+use crate::detector::{BUILT_IN, DetectorSettings, Model, parse_model, parse_share};
+use crate::output_folder::Staging;
+use crate::progress;
+use crate::segmenter::{open, say};
+use crate::terminal::Terminal;
+use anyhow::{anyhow, bail};
+use clap::Args;
+use pomona_cloud::{ColorImage, GrayImage};
+use pomona_labels::{
+    ImageStrokes, LabelsError, SEGMENTATION_SCHEMA, SegmentationEvaluation, SegmentationImage,
+    SegmentationOptions, SegmentationSource, Stroke, StrokeClass, evaluate_segmentation,
+    read_strokes, segmentation_images, segmentation_page,
+};
+use pomona_segment::{Role, Segmenter};
+use pomona_view::{ContactSheetImage, contact_sheet, tint};
+use std::path::{Path, PathBuf};
+
+/// Heading of these options.
+const HEADING: &str = "Segmentation";
+const SEGMENTATION: &str = "segmentation.json";
+/// The strokes of a folder, where `--strokes` is not given.
+const STROKES: &str = "strokes.txt";
+/// Pictures in a row of a sheet.
+const SHEET_COLUMNS: usize = 4;
+/// Side of a picture on a sheet, pixels.
+const SHEET_SIDE: usize = 416;
+/// How much of the colour of marks covers the picture.
+const OPACITY: f32 = 0.6;
+
+/// What `--segmentation` measures.
+#[derive(Clone, Debug, Default, Args)]
+pub(super) struct SegmentationArguments {
+    /// Measure masks of wood on strokes drawn by eye: the folder of the images (or of their `images/`, or of frames).
+    #[arg(long, value_name = "FOLDER", help_heading = HEADING, conflicts_with_all = ["subjects", "methods", "variants", "SettingValues", "calipers", "detection"])]
+    pub(super) segmentation: Option<PathBuf>,
+    /// The strokes. Default: strokes.txt in the folder.
+    #[arg(long, value_name = "FILE", requires = "segmentation", help_heading = HEADING)]
+    strokes: Option<PathBuf>,
+    /// A second person's strokes of some of the images: their agreement is the ceiling.
+    #[arg(long, value_name = "FILE", requires = "segmentation", help_heading = HEADING)]
+    second_strokes: Option<PathBuf>,
+    /// A segmentation model to measure (ONNX), or `built-in`; may be repeated. Default: built-in, unless --masks are
+    /// given.
+    #[arg(long = "segmenter", value_name = "FILE", value_parser = parse_model, requires = "segmentation", help_heading = HEADING)]
+    segmenters: Vec<Model>,
+    /// Masks of another program: a folder with NAME.wood.png (or NAME.png) for each image, grey, 255 where it is
+    /// sure of wood; may be repeated.
+    #[arg(long, value_name = "FOLDER", requires = "segmentation", help_heading = HEADING)]
+    masks: Vec<PathBuf>,
+    /// Probability of wood from which on a pixel is marked.
+    #[arg(long, value_name = "P", default_value_t = 0.5, value_parser = parse_share, requires = "segmentation", help_heading = HEADING)]
+    wood_threshold: f64,
+    /// Distance in pixels within which wood is found and a mark is right.
+    #[arg(long, value_name = "PX", default_value_t = 3.0, value_parser = parse_tolerance, requires = "segmentation", help_heading = HEADING)]
+    tolerance_px: f64,
+    /// Count only what lies within N radii of the apples boxed in each frame, where only that has been drawn in.
+    #[arg(long, value_name = "N", value_parser = parse_tolerance, requires = "segmentation", help_heading = HEADING)]
+    apple_radii: Option<f64>,
+}
+
+fn parse_tolerance(text: &str) -> Result<f64, String> {
+    let value = text
+        .parse()
+        .ok()
+        .filter(|value| (0.0..=100.0).contains(value));
+    value.ok_or_else(|| "give a number from 0 to 100".to_owned())
+}
+
+/// The file with the pictures of the worst images of the segmenter of this number, counted from 1.
+fn sheet_name(number: usize) -> String {
+    format!("worst-{number}.png")
+}
+
+fn is_sheet(name: &str) -> bool {
+    let number = name
+        .strip_prefix("worst-")
+        .and_then(|n| n.strip_suffix(".png"));
+    number.is_some_and(|n| n.parse::<usize>().is_ok())
+}
+
+/// Measures the segmenters on the first `count` images in `folder` that have strokes.
+pub(super) fn run(
+    own: &SegmentationArguments,
+    settings: &DetectorSettings,
+    folder: &Path,
+    (count, seed): (Option<usize>, u64),
+    results: &Results,
+    terminal: Terminal,
+) -> anyhow::Result<()> {
+    let output = results.claim(SEGMENTATION, SEGMENTATION_SCHEMA, is_sheet)?;
+    let file = own.strokes.clone().unwrap_or_else(|| folder.join(STROKES));
+    let mut images = segmentation_images(folder, strokes(&file, "--strokes")?, &file)?;
+    images.truncate(count.unwrap_or(usize::MAX));
+    let second = match &own.second_strokes {
+        Some(path) => strokes(path, "--second-strokes")?,
+        None => Vec::new(),
+    };
+    let opened = own.open(settings, terminal)?;
+    let readers: Vec<_> = own.masks.iter().map(|folder| mask_reader(folder)).collect();
+    let mut sources: Vec<SegmentationSource<'_>> = Vec::new();
+    for (name, segmenter) in &opened {
+        let name = name.clone();
+        sources.push(SegmentationSource::Segmenter {
+            name,
+            segmenter: &**segmenter,
+        });
+    }
+    for (folder, read) in own.masks.iter().zip(&readers) {
+        let name = stem(folder);
+        if sources.iter().any(|source| source.name() == name) {
+            bail!(
+                "--segmenter and --masks: `{name}` is given twice; give files and folders names of their own"
+            );
+        }
+        sources.push(SegmentationSource::Masks { name, read });
+    }
+    let options = SegmentationOptions {
+        threshold: own.wood_threshold,
+        tolerance_px: own.tolerance_px,
+        seed,
+        apple_radii: own.apple_radii,
+    };
+    let bar = progress::bar(images.len());
+    let evaluation =
+        evaluate_segmentation(&stem(&file), &images, &second, &sources, &options, &|| {
+            bar.inc(1);
+        })?;
+    bar.finish_and_clear();
+    let files = output.stage()?;
+    let sheets = sheets(&images, &sources, &evaluation, &files)?;
+    files.write_text(SEGMENTATION, &json(&evaluation)?)?;
+    files.write_text(REPORT, &segmentation_page(&evaluation, &sheets)?)?;
+    files.publish()?;
+    results.print(
+        &evaluation,
+        &segmentation_text::tables(&evaluation, terminal),
+    )
+}
+
+impl SegmentationArguments {
+    /// Opens the models, each under a name of its own.
+    fn open(
+        &self,
+        settings: &DetectorSettings,
+        terminal: Terminal,
+    ) -> anyhow::Result<Vec<(String, Box<dyn Segmenter>)>> {
+        let models = match (&*self.segmenters, &*self.masks) {
+            ([], []) => &[Model::BuiltIn][..],
+            (models, _) => models,
+        };
+        let mut opened: Vec<(String, Box<dyn Segmenter>)> = Vec::new();
+        for model in models {
+            let name = match model {
+                Model::BuiltIn => BUILT_IN.to_owned(),
+                Model::File(path) => stem(path),
+            };
+            if opened.iter().any(|(other, _)| *other == name) {
+                bail!(
+                    "--segmenter: `{name}` is given twice; give each once, and files names of their own"
+                );
+            }
+            let segmenter = open(model, settings.runtime(), settings.tiles())?;
+            say(&segmenter.report(), terminal);
+            opened.push((name, segmenter));
+        }
+        Ok(opened)
+    }
+}
+
+/// Reads the strokes that `option` names.
+fn strokes(file: &Path, option: &str) -> anyhow::Result<Vec<ImageStrokes>> {
+    read_strokes(file).map_err(|error| match error {
+        LabelsError::Io { .. } => anyhow!("{error}; give a file of strokes by {option}"),
+        error => error.into(),
+    })
+}
+
+fn stem(path: &Path) -> String {
+    let name = if path.is_dir() {
+        path.file_name()
+    } else {
+        path.file_stem()
+    };
+    name.map_or_else(
+        || path.display().to_string(),
+        |name| name.to_string_lossy().into_owned(),
+    )
+}
+
+/// Reads the masks in `folder`.
+fn mask_reader(
+    folder: &Path,
+) -> impl Fn(&SegmentationImage, [usize; 2]) -> Result<Vec<f32>, LabelsError> + Sync {
+    move |image, [width, height]| {
+        let name = Path::new(&image.strokes.name);
+        // A frame's folder has its whole name; an image's file loses its ending.
+        let is_file = image.path.file_name() == name.file_name();
+        let stem = if is_file {
+            name.file_stem()
+        } else {
+            name.file_name()
+        };
+        let stem = stem.unwrap_or_default().to_string_lossy();
+        let of_wood = folder.join(format!("{stem}.wood.png"));
+        let path = if of_wood.is_file() {
+            of_wood
+        } else {
+            folder.join(format!("{stem}.png"))
+        };
+        let mask = GrayImage::read(&path)?;
+        if [mask.width, mask.height] != [width, height] {
+            return Err(LabelsError::Malformed {
+                path,
+                problem: format!(
+                    "{}x{} pixels for an image of {width}x{height}",
+                    mask.width, mask.height
+                ),
+                remedy: "write the mask in the image's size".to_owned(),
+            });
+        }
+        Ok(mask
+            .values
+            .iter()
+            .map(|value| f32::from(*value) / 255.0)
+            .collect())
+    }
+}
+
+/// Writes the pictures of the worst images of each result; their names, empty where nothing is bad.
+fn sheets(
+    images: &[SegmentationImage],
+    sources: &[SegmentationSource<'_>],
+    evaluation: &SegmentationEvaluation,
+    output: &Staging<'_>,
+) -> anyhow::Result<Vec<String>> {
+    let mut names = Vec::new();
+    for (number, (result, source)) in evaluation.results.iter().zip(sources).enumerate() {
+        let mut pictures = Vec::new();
+        for worst in &result.worst {
+            for image in images
+                .iter()
+                .filter(|image| image.strokes.name == worst.image)
+            {
+                pictures.push(ContactSheetImage {
+                    image: marked(image, source, evaluation)?,
+                    marks: Vec::new(),
+                    caption: format!(
+                        "-{:.0} +{} {}",
+                        worst.missed_px, worst.false_pixels, worst.image
+                    ),
+                });
+            }
+        }
+        if pictures.is_empty() {
+            names.push(String::new());
+            continue;
+        }
+        let name = sheet_name(number + 1);
+        contact_sheet(&pictures, SHEET_COLUMNS, SHEET_SIDE)?.write(output.file(&name))?;
+        names.push(name);
+    }
+    Ok(names)
+}
+
+/// The image with what is marked and right in green, marked and wrong in red, and missed in yellow; far wood is left
+/// as it is.
+fn marked(
+    image: &SegmentationImage,
+    source: &SegmentationSource<'_>,
+    evaluation: &SegmentationEvaluation,
+) -> anyhow::Result<ColorImage> {
+    const RIGHT: [u8; 3] = [30, 235, 60];
+    const WRONG: [u8; 3] = [255, 30, 30];
+    const MISSED: [u8; 3] = [255, 222, 0];
+    let pixels = ColorImage::read(&image.path)?;
+    let p = match source {
+        SegmentationSource::Segmenter { segmenter, .. } => {
+            segmenter.segment(&pixels)?.role(Role::Wood)
+        }
+        SegmentationSource::Masks { read, .. } => read(image, [pixels.width, pixels.height])?,
+    };
+    let edge_of = |class: StrokeClass, place: [f64; 2]| {
+        let edge = |stroke: &Stroke| {
+            let (distance, half_width) = stroke.nearest(place);
+            distance - half_width
+        };
+        image
+            .strokes
+            .of(class)
+            .map(edge)
+            .fold(f64::INFINITY, f64::min)
+    };
+    let tolerance = evaluation.tolerance_px;
+    let color = |k: usize| {
+        let place = [
+            (k % pixels.width) as f64 + 0.5,
+            (k / pixels.width) as f64 + 0.5,
+        ];
+        let edge = edge_of(StrokeClass::Wood, place);
+        match f64::from(p[k]) >= evaluation.threshold {
+            true if edge <= tolerance => Some(RIGHT),
+            // It does not count.
+            true if edge_of(StrokeClass::Far, place) <= tolerance => None,
+            true => Some(WRONG),
+            false if edge <= 0.0 => Some(MISSED),
+            false => None,
+        }
+    };
+    Ok(tint(&pixels, color, OPACITY)?)
+}

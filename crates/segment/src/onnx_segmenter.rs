@@ -1,0 +1,249 @@
+use crate::{
+    blend::{Tile, blend},
+    classes::Classes,
+    description::{Activation, SegmentDescription},
+    error::SegmentError,
+    output::{Maps, Place, activate, channels},
+    segmentation::Segmentation,
+    segmenter::{Segmenter, SegmenterReport},
+};
+use pomona_cloud::{ColorImage, PixelWindow};
+use pomona_network::{
+    ImageNetwork, Letterbox, Malformed, Network, NetworkError, Tiling, TilingChoice, check_image,
+    input_size,
+};
+
+/// Side of the input in pixels where neither the model nor its description says: that of the built-in model.
+const USUAL_SIDE: usize = 416;
+
+/// The grey that is run once where nobody says how a model's numbers are to be read.
+const PROBE: [u8; 3] = [114; 3];
+
+/// A network that gives each pixel its classes.
+///
+/// An image is cut into tiles where it is larger than the input; the tiles are spread over the cores, whose number
+/// changes nothing.
+pub struct OnnxSegmenter {
+    network: ImageNetwork,
+    name: String,
+    classes: Classes,
+    activation: Activation,
+    /// Whether the output is one class against the rest.
+    is_one: bool,
+    tiling: Tiling,
+    notes: Vec<String>,
+}
+
+impl OnnxSegmenter {
+    /// A segmenter around a network; `name` is the model's file, or its name in messages.
+    ///
+    /// # Errors
+    ///
+    /// [`SegmentError::Network`] for a network whose output is no map of classes, one that its description
+    /// contradicts, or a grid without tiles.
+    pub fn new(
+        network: Box<dyn Network>,
+        name: impl Into<String>,
+        description: &SegmentDescription,
+        tiling: TilingChoice,
+    ) -> Result<Self, SegmentError> {
+        let name = name.into();
+        let model = |fault: Malformed| NetworkError::model(&*name, fault);
+        let [width, height] =
+            input_size(network.inputs(), description.input_size).map_err(model)?;
+        let declared = channels(network.outputs()).map_err(model)?;
+        let mut notes = Vec::new();
+        let input = [width, height].map(|side| side.unwrap_or(USUAL_SIDE));
+        if width.is_none() || height.is_none() {
+            notes.push(format!(
+                "the model leaves its input's size open: {}x{} pixels are assumed; state `input_size` in the \
+                 description beside it",
+                input[0], input[1]
+            ));
+        }
+        let tiling = Tiling::new(&description.tiling(tiling, input), input)?;
+        let network =
+            ImageNetwork::new(network, input, description.preparation()).map_err(model)?;
+        let (channels, activation) = match (declared, description.activation) {
+            (Some(channels), Some(activation)) => (channels, activation),
+            (_, stated) => {
+                let probe = probe(&network).map_err(|error| named(error, &name))?;
+                let activation = stated.unwrap_or(probe.activation);
+                if stated.is_none() {
+                    let kind = if activation == Activation::None {
+                        "probabilities"
+                    } else {
+                        "logits"
+                    };
+                    notes.push(format!(
+                        "its numbers are taken for {kind}; state `activation` in the description beside it"
+                    ));
+                }
+                (probe.channels, activation)
+            }
+        };
+        let classes = description.classes(channels).map_err(model)?;
+        if description.classes.is_none() {
+            notes.push(format!(
+                "its only channel is taken for `{}`; state `classes` in the description beside it",
+                classes.names()[1]
+            ));
+        }
+        Ok(Self {
+            network,
+            name,
+            classes,
+            activation,
+            is_one: channels == 1,
+            tiling,
+            notes,
+        })
+    }
+
+    /// Width and height of the network's input in pixels.
+    pub fn input_size(&self) -> [usize; 2] {
+        self.network.input_size()
+    }
+
+    /// The windows of an image of `[width, height]` pixels that the network is run on for all of its pixels.
+    pub fn windows(&self, image: [usize; 2]) -> Vec<PixelWindow> {
+        self.tiling.windows(image)
+    }
+
+    /// What one window shows.
+    fn tile(&self, letterbox: Letterbox, maps: &Maps<'_>) -> Result<Tile, Malformed> {
+        let window = letterbox.window();
+        let expected = self.classes.len() - usize::from(self.is_one);
+        if maps.channels != expected {
+            let problem = format!("{} channels for {expected} classes", maps.channels);
+            let remedy = "use a model that always answers with the same number of channels";
+            return Err(Malformed::new("output", problem, remedy));
+        }
+        let input = self.network.input_size().map(|side| side as f64);
+        let place = |u: usize, v: usize| {
+            let centre = [(window.x0 + u) as f64 + 0.5, (window.y0 + v) as f64 + 0.5];
+            let [x, y] = letterbox.to_input(centre);
+            [x / input[0], y / input[1]]
+        };
+        let width = window.width();
+        let columns: Vec<Place> = (0..width)
+            .map(|u| Place::new(place(u, 0)[0], maps.width))
+            .collect();
+        let mut planes = vec![vec![0.0; width * window.height()]; self.classes.len()];
+        let mut rows = vec![vec![0.0; width]; self.classes.len()];
+        for v in 0..window.height() {
+            let row = Place::new(place(0, v)[1], maps.height);
+            for (channel, numbers) in rows[usize::from(self.is_one)..].iter_mut().enumerate() {
+                maps.row(channel, row, &columns, numbers);
+            }
+            activate(self.activation, &mut rows, self.is_one);
+            for (plane, row) in planes.iter_mut().zip(&rows) {
+                plane[v * width..(v + 1) * width].copy_from_slice(row);
+            }
+        }
+        Ok(Tile { window, planes })
+    }
+}
+
+impl Segmenter for OnnxSegmenter {
+    fn classes(&self) -> &Classes {
+        &self.classes
+    }
+
+    fn segment_windows(
+        &self,
+        image: &ColorImage,
+        windows: &[PixelWindow],
+    ) -> Result<Segmentation, SegmentError> {
+        check_image(image)?;
+        let size = [image.width, image.height];
+        for window in windows {
+            let inside = window.x1 <= image.width && window.y1 <= image.height;
+            if !inside || window.is_empty() {
+                return Err(NetworkError::Window {
+                    width: image.width,
+                    height: image.height,
+                    window: *window,
+                }
+                .into());
+            }
+        }
+        let mut tiles = self.tiling.windows(size);
+        tiles.retain(|tile| windows.iter().any(|window| overlap(tile, window)));
+        let read = |letterbox, outputs: Vec<_>| {
+            let maps = Maps::of(&outputs);
+            let tile = maps.and_then(|maps| self.tile(letterbox, &maps));
+            tile.map_err(|fault| SegmentError::from(NetworkError::model(&*self.name, fault)))
+        };
+        let tiles = self.network.run_windows(image, &tiles, read)?;
+        Ok(blend(
+            size,
+            self.classes.clone(),
+            tiles,
+            self.tiling.overlap(),
+        ))
+    }
+
+    fn report(&self) -> SegmenterReport {
+        SegmenterReport {
+            name: self.name.clone(),
+            runtime: Some(self.network.network().report()),
+            notes: self.notes.clone(),
+        }
+    }
+}
+
+fn overlap(a: &PixelWindow, b: &PixelWindow) -> bool {
+    a.x0 < b.x1 && b.x0 < a.x1 && a.y0 < b.y1 && b.y0 < a.y1
+}
+
+/// What an answer tells about a network.
+struct Probe {
+    channels: usize,
+    activation: Activation,
+}
+
+/// The answer to a grey image.
+fn probe(network: &ImageNetwork) -> Result<Probe, SegmentError> {
+    let [width, height] = network.input_size();
+    let grey = ColorImage::filled(width, height, PROBE);
+    let window = PixelWindow::full(width, height);
+    let read = |_, outputs: Vec<_>| {
+        let maps = Maps::of(&outputs).map_err(|fault| NetworkError::model("", fault))?;
+        let activation = if maps.are_probabilities() {
+            Activation::None
+        } else if maps.channels == 1 {
+            Activation::Sigmoid
+        } else {
+            Activation::Softmax
+        };
+        Ok::<_, SegmentError>(Probe {
+            channels: maps.channels,
+            activation,
+        })
+    };
+    let mut probes = network.run_windows(&grey, &[window], read)?;
+    probes.pop().ok_or_else(|| SegmentError::Other {
+        segmenter: "network".to_owned(),
+        source: "it gives no answer".into(),
+    })
+}
+
+/// The same error with the model's name where it has none.
+fn named(error: SegmentError, name: &str) -> SegmentError {
+    match error {
+        SegmentError::Network(NetworkError::Model {
+            model,
+            place,
+            problem,
+            remedy,
+        }) if model.is_empty() => NetworkError::Model {
+            model: name.to_owned(),
+            place,
+            problem,
+            remedy,
+        }
+        .into(),
+        other => other,
+    }
+}

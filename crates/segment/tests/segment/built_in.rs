@@ -1,0 +1,88 @@
+//! The built-in model, in both backends.
+
+use pomona_cloud::{ColorImage, PixelWindow};
+use pomona_segment::{Role, RuntimeChoice, Segmenter, SegmenterOptions};
+
+fn open(runtime: &RuntimeChoice) -> Option<Box<dyn Segmenter>> {
+    let mut options = SegmenterOptions::default();
+    options.runtime = runtime.clone();
+    match options.open() {
+        Ok(segmenter) => Some(segmenter),
+        Err(error) if *runtime == RuntimeChoice::OnnxRuntime => {
+            eprintln!("skipped: {error}");
+            None
+        }
+        Err(error) => panic!("{error}"),
+    }
+}
+
+/// Brown branches before green leaves and a pale sky, drawn with a fixed pattern.
+fn drawn(width: usize, height: usize) -> ColorImage {
+    let mut image = ColorImage::filled(width, height, [150, 170, 190]);
+    for (k, pixel) in image.pixels.iter_mut().enumerate() {
+        let (u, v) = ((k % width) as f64, (k / width) as f64);
+        let wave = (0.11 * u).sin() + (0.07 * v + 0.03 * u).cos();
+        let noise = ((k * 7919) % 23) as u8;
+        if wave > 0.2 {
+            *pixel = [50 + noise, 90 + noise, 40];
+        }
+        let branch = (u - 0.4 * v - 40.0 * (v * 0.01).sin()).rem_euclid(170.0);
+        if branch < 12.0 {
+            let light = 1.0 - ((branch - 6.0) / 9.0).powi(2);
+            *pixel = [110.0, 88.0, 70.0].map(|c| (c * light) as u8 + noise);
+        }
+    }
+    image
+}
+
+#[test]
+fn both_backends_give_the_same_probabilities() {
+    let image = drawn(500, 430);
+    let embedded = open(&RuntimeChoice::Embedded).unwrap();
+    let Some(onnxruntime) = open(&RuntimeChoice::OnnxRuntime) else {
+        return;
+    };
+    let (a, b) = (
+        embedded.segment(&image).unwrap(),
+        onnxruntime.segment(&image).unwrap(),
+    );
+    for class in 0..a.classes().len() {
+        let planes = a.plane(class).unwrap().iter().zip(b.plane(class).unwrap());
+        let most = planes.map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
+        assert!(most <= 1e-3, "class {class}: {most}");
+    }
+}
+
+#[test]
+fn its_classes_are_those_of_the_orchard() {
+    let segmenter = open(&RuntimeChoice::Embedded).unwrap();
+    let names = ["rest", "wood", "peduncle", "fruit", "post"];
+    assert_eq!(segmenter.classes().names(), names);
+    for role in Role::ALL {
+        assert_eq!(segmenter.classes().of(role).count(), 1, "{role:?}");
+    }
+    assert!(segmenter.report().notes.is_empty());
+}
+
+#[test]
+fn a_part_of_the_image_shows_what_the_whole_shows() {
+    let image = drawn(900, 500);
+    let segmenter = open(&RuntimeChoice::Embedded).unwrap();
+    let window = PixelWindow {
+        x0: 20,
+        y0: 30,
+        x1: 120,
+        y1: 110,
+    };
+    let part = segmenter.segment_windows(&image, &[window]).unwrap();
+    assert!(part.seen_share() < 0.5);
+    let whole = segmenter.segment(&image).unwrap();
+    for v in window.y0..window.y1 {
+        for u in window.x0..window.x1 {
+            assert_eq!(
+                part.probability(Role::Wood, u, v),
+                whole.probability(Role::Wood, u, v)
+            );
+        }
+    }
+}

@@ -38,7 +38,7 @@ pub(super) struct SegmentationArguments {
     /// The strokes. Default: strokes.txt in the folder.
     #[arg(long, value_name = "FILE", requires = "segmentation", help_heading = HEADING)]
     strokes: Option<PathBuf>,
-    /// A second person's strokes of some of the images: their agreement is the ceiling.
+    /// A second person's strokes of some of the images, for the agreement of their centre lines with these.
     #[arg(long, value_name = "FILE", requires = "segmentation", help_heading = HEADING)]
     second_strokes: Option<PathBuf>,
     /// A segmentation model to measure (ONNX), or `built-in`; may be repeated. Default: built-in, unless --masks are

@@ -70,7 +70,8 @@ pub fn segmentation_page(
         body += &paragraph(&format!(
             "{} images were drawn by two people who did not see each other's strokes. Recall: of the length of the \
              strokes measured on, the share within {} px of one of the second person's; precision: the other way \
-             round. No method can be known to do better.",
+             round. This is centre line against centre line, which is stricter than the table above; to compare a \
+             segmenter with a person, give that person's strokes as masks.",
             agreement.images, evaluation.tolerance_px
         ));
     }

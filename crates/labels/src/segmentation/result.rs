@@ -25,7 +25,8 @@ pub struct SegmentationEvaluation {
     pub seed: u64,
     /// Number of bootstrap resamples.
     pub resamples: usize,
-    /// How well a second person's strokes agree with these: the ceiling. Absent where there are none.
+    /// How well a second person's strokes agree with these, centre line against centre line. Absent where there are
+    /// none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub agreement: Option<Agreement>,
     /// One for each segmenter or folder of masks, in the order given.

@@ -41,7 +41,7 @@ enum Command {
     Pick(Box<pick::PickArguments>),
     /// Detect apples in colour images.
     Detect(detect::DetectArguments),
-    /// Tell wood, fruit and posts in colour images, pixel by pixel.
+    /// Segment colour images: wood, fruit and posts, pixel by pixel.
     Segment(segment::SegmentArguments),
     /// Write synthetic frames with ground truth.
     Scenes(scenes::ScenesArguments),

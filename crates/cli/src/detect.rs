@@ -5,7 +5,7 @@ mod record;
 mod tests;
 mod text;
 
-use crate::detector::DetectorArguments;
+use crate::detector::{DetectorArguments, say_assumptions};
 use crate::image_paths::{NamedImage, images};
 use crate::output_folder::{OutputFolder, Staging};
 use crate::progress;
@@ -92,13 +92,8 @@ pub(crate) fn run(arguments: &DetectArguments, terminal: Terminal) -> anyhow::Re
 
 /// Says what was assumed about the model, and with -v why a runtime did not serve.
 pub(crate) fn say(report: &DetectorReport, terminal: Terminal) {
-    for note in &report.notes {
-        terminal.note(&format!("{}: {note}", report.name));
-    }
     let runtime = report.runtime.as_ref();
-    if let Some(reason) = runtime.and_then(|r| r.fallback_reason.as_ref()) {
-        log::info!("{reason}");
-    }
+    say_assumptions(&report.name, &report.notes, runtime, terminal);
 }
 
 /// What is to be done, and with what.

@@ -1,6 +1,7 @@
+use crate::terminal::Terminal;
 use clap::Args;
 use pomona_detect::{
-    ClassChoice, DetectError, Detector, DetectorOptions, RuntimeChoice, TilingChoice,
+    ClassChoice, DetectError, Detector, DetectorOptions, RuntimeChoice, RuntimeReport, TilingChoice,
 };
 use std::path::PathBuf;
 
@@ -89,6 +90,21 @@ impl DetectorSettings {
             nms_iou: self.nms_iou,
             tiling: self.tiles,
         }
+    }
+}
+
+/// Says what was assumed about a model, and with -v why an inference backend did not serve.
+pub(crate) fn say_assumptions(
+    model: &str,
+    notes: &[String],
+    runtime: Option<&RuntimeReport>,
+    terminal: Terminal,
+) {
+    for note in notes {
+        terminal.note(&format!("{model}: {note}"));
+    }
+    if let Some(reason) = runtime.and_then(|r| r.fallback_reason.as_ref()) {
+        log::info!("{reason}");
     }
 }
 

@@ -14,6 +14,7 @@ mod segmentation_text;
 mod suites;
 mod suites_text;
 mod text_table;
+mod worst_sheet;
 
 use crate::terminal::Terminal;
 use methods::pickers;

@@ -1,4 +1,4 @@
-use crate::detector::{BUILT_IN, Model, parse_model, parse_runtime, parse_tiles};
+use crate::detector::{BUILT_IN, Model, parse_model, parse_runtime, parse_tiles, say_assumptions};
 use clap::Args;
 use pomona_segment::{
     RuntimeChoice, SegmentError, Segmenter, SegmenterOptions, SegmenterReport, TilingChoice,
@@ -45,11 +45,6 @@ pub(crate) fn open(
 
 /// Says what was assumed about the model, and with -v why a runtime did not serve.
 pub(crate) fn say(report: &SegmenterReport, terminal: crate::terminal::Terminal) {
-    for note in &report.notes {
-        terminal.note(&format!("{}: {note}", report.name));
-    }
     let runtime = report.runtime.as_ref();
-    if let Some(reason) = runtime.and_then(|r| r.fallback_reason.as_ref()) {
-        log::info!("{reason}");
-    }
+    say_assumptions(&report.name, &report.notes, runtime, terminal);
 }

@@ -52,6 +52,7 @@
 //! Lin et al. 2014, "Microsoft COCO: Common Objects in Context", arXiv 1405.0312. Everingham et al. 2015, "The PASCAL
 //! Visual Object Classes Challenge: A Retrospective", doi 10.1007/s11263-014-0733-5.
 
+mod cells;
 mod dataset;
 mod detection;
 mod error;

@@ -1,5 +1,6 @@
 use super::detection_text;
 use super::results::{REPORT, Results, json};
+use super::worst_sheet::{self, is_sheet, stem};
 use crate::detect;
 use crate::detector::{BUILT_IN, DetectorSettings, Model, parse_class, parse_model, parse_share};
 use crate::output_folder::Staging;
@@ -14,16 +15,12 @@ use pomona_labels::{
     DETECTION_SCHEMA, DetectionEvaluation, DetectionOptions, DetectionSource, GroundTruthBox,
     LabelledDataset, MatchedImage, detection_page, evaluate_detections, read_detections,
 };
-use pomona_view::{BoxKind, BoxMark, ContactSheetImage, contact_sheet};
+use pomona_view::{BoxKind, BoxMark, ContactSheetImage};
 use std::path::{Path, PathBuf};
 
 /// Heading of these options.
 const HEADING: &str = "Detection";
 const DETECTION: &str = "detection.json";
-/// Pictures in a row of a sheet.
-const SHEET_COLUMNS: usize = 4;
-/// Side of a picture on a sheet, pixels.
-const SHEET_SIDE: usize = 416;
 
 /// What `--detection` measures.
 #[derive(Clone, Debug, Default, Args)]
@@ -57,18 +54,6 @@ pub(super) struct DetectionArguments {
     lowest_score: f64,
     #[command(flatten)]
     settings: DetectorSettings,
-}
-
-/// The file with the pictures of the worst images of the detector of this number, counted from 1.
-fn sheet_name(number: usize) -> String {
-    format!("worst-{number}.png")
-}
-
-fn is_sheet(name: &str) -> bool {
-    let number = name
-        .strip_prefix("worst-")
-        .and_then(|n| n.strip_suffix(".png"));
-    number.is_some_and(|n| n.parse::<usize>().is_ok())
 }
 
 /// Measures the detectors on the first `count` images of the data set `labelled`.
@@ -208,18 +193,6 @@ fn model_name(model: &Model) -> String {
     }
 }
 
-fn stem(path: &Path) -> String {
-    let name = if path.is_dir() {
-        path.file_name()
-    } else {
-        path.file_stem()
-    };
-    name.map_or_else(
-        || path.display().to_string(),
-        |name| name.to_string_lossy().into_owned(),
-    )
-}
-
 fn say_what_is_left_out(dataset: &LabelledDataset, terminal: Terminal) {
     let name = &dataset.name;
     if dataset.without_label_file > 0 {
@@ -265,13 +238,7 @@ fn sheets(
                 });
             }
         }
-        if pictures.is_empty() {
-            names.push(String::new());
-            continue;
-        }
-        let name = sheet_name(number + 1);
-        contact_sheet(&pictures, SHEET_COLUMNS, SHEET_SIDE)?.write(output.file(&name))?;
-        names.push(name);
+        names.push(worst_sheet::write(&pictures, number + 1, output)?);
     }
     Ok(names)
 }

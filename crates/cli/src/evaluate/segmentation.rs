@@ -1,5 +1,6 @@
 use super::results::{REPORT, Results, json};
 use super::segmentation_text;
+use super::worst_sheet::{self, is_sheet, stem};
 use crate::detector::{BUILT_IN, DetectorSettings, Model, parse_model, parse_share};
 use crate::output_folder::Staging;
 use crate::progress;
@@ -14,7 +15,7 @@ use pomona_labels::{
     read_strokes, segmentation_images, segmentation_page,
 };
 use pomona_segment::{Role, Segmenter};
-use pomona_view::{ContactSheetImage, contact_sheet, tint};
+use pomona_view::{ContactSheetImage, tint};
 use std::path::{Path, PathBuf};
 
 /// Heading of these options.
@@ -22,10 +23,6 @@ const HEADING: &str = "Segmentation";
 const SEGMENTATION: &str = "segmentation.json";
 /// The strokes of a folder, where `--strokes` is not given.
 const STROKES: &str = "strokes.txt";
-/// Pictures in a row of a sheet.
-const SHEET_COLUMNS: usize = 4;
-/// Side of a picture on a sheet, pixels.
-const SHEET_SIDE: usize = 416;
 /// How much of the colour of marks covers the picture.
 const OPACITY: f32 = 0.6;
 
@@ -66,18 +63,6 @@ fn parse_tolerance(text: &str) -> Result<f64, String> {
         .ok()
         .filter(|value| (0.0..=100.0).contains(value));
     value.ok_or_else(|| "give a number from 0 to 100".to_owned())
-}
-
-/// The file with the pictures of the worst images of the segmenter of this number, counted from 1.
-fn sheet_name(number: usize) -> String {
-    format!("worst-{number}.png")
-}
-
-fn is_sheet(name: &str) -> bool {
-    let number = name
-        .strip_prefix("worst-")
-        .and_then(|n| n.strip_suffix(".png"));
-    number.is_some_and(|n| n.parse::<usize>().is_ok())
 }
 
 /// Measures the segmenters on the first `count` images in `folder` that have strokes.
@@ -177,18 +162,6 @@ fn strokes(file: &Path, option: &str) -> anyhow::Result<Vec<ImageStrokes>> {
     })
 }
 
-fn stem(path: &Path) -> String {
-    let name = if path.is_dir() {
-        path.file_name()
-    } else {
-        path.file_stem()
-    };
-    name.map_or_else(
-        || path.display().to_string(),
-        |name| name.to_string_lossy().into_owned(),
-    )
-}
-
 /// Reads the masks in `folder`.
 fn mask_reader(
     folder: &Path,
@@ -253,13 +226,7 @@ fn sheets(
                 });
             }
         }
-        if pictures.is_empty() {
-            names.push(String::new());
-            continue;
-        }
-        let name = sheet_name(number + 1);
-        contact_sheet(&pictures, SHEET_COLUMNS, SHEET_SIDE)?.write(output.file(&name))?;
-        names.push(name);
+        names.push(worst_sheet::write(&pictures, number + 1, output)?);
     }
     Ok(names)
 }

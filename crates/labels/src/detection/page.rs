@@ -1,21 +1,10 @@
 use super::result::{DetectionEvaluation, DetectionResult, SizeRecall};
+use crate::cells::{COLORS, difference, estimate};
 use crate::error::LabelsError;
-use crate::resampling::Estimate;
 use pomona_report::html::{escape, figures, heading, page, paragraph, table};
 use pomona_report::number::{UNKNOWN, or_unknown, percent, with_interval};
-use pomona_report::plot::{
-    Axis, BLUE, GRAY, GREEN, Marks, ORANGE, PlotError, RED, Rgb, Series, VIOLET, plot,
-};
+use pomona_report::plot::{Axis, GRAY, Marks, PlotError, Series, plot};
 use pomona_statistics::Proportion;
-
-/// Colours of the curves, in turn.
-const COLORS: [(Rgb, &str); 5] = [
-    (RED, "red"),
-    (BLUE, "blue"),
-    (GREEN, "green"),
-    (ORANGE, "orange"),
-    (VIOLET, "violet"),
-];
 
 /// A page with the tables and curves of a detection evaluation.
 ///
@@ -128,17 +117,6 @@ fn runtime(result: &DetectionResult) -> String {
     }
 }
 
-fn estimate(estimate: Option<Estimate>) -> String {
-    or_unknown(estimate, |e| {
-        format!(
-            "{}\n{}–{}",
-            percent(e.value),
-            percent(e.low),
-            percent(e.high)
-        )
-    })
-}
-
 fn plots(evaluation: &DetectionEvaluation) -> Result<Vec<(String, String)>, PlotError> {
     let share = |label| Axis::new(label, 0.0..1.0);
     let mut curves = Vec::new();
@@ -202,17 +180,15 @@ fn plots(evaluation: &DetectionEvaluation) -> Result<Vec<(String, String)>, Plot
 }
 
 fn differences(evaluation: &DetectionEvaluation) -> String {
-    let signed = |e: &Estimate| {
-        let [value, low, high] = [e.value, e.low, e.high].map(|v| 100.0 * v);
-        format!("{value:+.1}\n{low:+.1} to {high:+.1}")
-    };
     let rows: Vec<Vec<String>> = evaluation
         .differences
         .iter()
         .map(|d| {
             let pair = format!("{} − {}", d.second, d.first);
             let figures = [&d.ap50, &d.ap50_95, &d.f1, &d.recall, &d.precision];
-            std::iter::once(pair).chain(figures.map(signed)).collect()
+            std::iter::once(pair)
+                .chain(figures.map(difference))
+                .collect()
         })
         .collect();
     table(

@@ -1,20 +1,9 @@
 use super::result::{SegmentationEvaluation, SegmentationResult};
+use crate::cells::{COLORS, difference, estimate};
 use crate::error::LabelsError;
-use crate::resampling::Estimate;
 use pomona_report::html::{escape, figures, heading, page, paragraph, table};
-use pomona_report::number::{or_unknown, percent, with_interval};
-use pomona_report::plot::{
-    Axis, BLUE, GRAY, GREEN, Marks, ORANGE, PlotError, RED, Rgb, Series, VIOLET, plot,
-};
-
-/// Colours of the curves, in turn.
-const COLORS: [(Rgb, &str); 5] = [
-    (RED, "red"),
-    (BLUE, "blue"),
-    (GREEN, "green"),
-    (ORANGE, "orange"),
-    (VIOLET, "violet"),
-];
+use pomona_report::number::{percent, with_interval};
+use pomona_report::plot::{Axis, GRAY, Marks, PlotError, Series, plot};
 
 /// A page with the tables and curves of a segmentation evaluation.
 ///
@@ -90,17 +79,6 @@ pub fn segmentation_page(
         body += &worst(result, sheets.get(number).map_or("", String::as_str));
     }
     Ok(page("Segmentation of wood", &body))
-}
-
-fn estimate(estimate: Option<Estimate>) -> String {
-    or_unknown(estimate, |e| {
-        format!(
-            "{}\n{}–{}",
-            percent(e.value),
-            percent(e.low),
-            percent(e.high)
-        )
-    })
 }
 
 fn overview(evaluation: &SegmentationEvaluation) -> String {
@@ -197,14 +175,12 @@ fn plots(evaluation: &SegmentationEvaluation) -> Result<Vec<(String, String)>, P
 }
 
 fn differences(evaluation: &SegmentationEvaluation) -> String {
-    let signed = |e: &Estimate| {
-        let [value, low, high] = [e.value, e.low, e.high].map(|v| 100.0 * v);
-        format!("{value:+.1}\n{low:+.1} to {high:+.1}")
-    };
     let row = |d: &super::result::SegmentationDifference| {
         let pair = format!("{} − {}", d.second, d.first);
         let figures = [&d.recall_wide, &d.precision, &d.iou];
-        std::iter::once(pair).chain(figures.map(signed)).collect()
+        std::iter::once(pair)
+            .chain(figures.map(difference))
+            .collect()
     };
     let rows: Vec<Vec<String>> = evaluation.differences.iter().map(row).collect();
     table(

@@ -7,7 +7,7 @@ use serde::Serialize;
 /// Schema of [`SegmentationEvaluation`]; a change of meaning changes its number.
 pub const SEGMENTATION_SCHEMA: &str = "pomona.segmentation-evaluation/1";
 
-/// What `segmentation.json` holds: masks of wood measured on the same strokes.
+/// What `segmentation.json` holds: masks of wood measured on the same images.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct SegmentationEvaluation {
@@ -15,7 +15,7 @@ pub struct SegmentationEvaluation {
     pub schema: &'static str,
     /// Version of this program.
     pub version: &'static str,
-    /// The images and their strokes.
+    /// The images, and the strokes or masks that are the truth.
     pub strokes: StrokeSummary,
     /// Distance in pixels within which wood is found and a mark is right.
     pub tolerance_px: f64,
@@ -35,22 +35,35 @@ pub struct SegmentationEvaluation {
     pub differences: Vec<SegmentationDifference>,
 }
 
-/// The strokes measured on.
+/// The strokes or masks measured on.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct StrokeSummary {
-    /// Name of the file.
+    /// Name of the file, or of the folder of masks.
     pub name: String,
+    /// Which of the two they are.
+    pub truth: TruthKind,
     /// Images.
     pub images: usize,
     /// Photographs that they are cut from; intervals are over these.
     pub photographs: usize,
-    /// Strokes of wood.
+    /// Strokes of wood; 0 for masks.
     pub wood: usize,
-    /// Their length in pixels.
+    /// Length in pixels of the centre lines of wood.
     pub wood_length_px: f64,
     /// Length in pixels of posts and the like.
     pub post_length_px: f64,
+}
+
+/// What is taken for true.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum TruthKind {
+    /// Strokes drawn by eye.
+    Strokes,
+    /// Masks; their centre lines are found by thinning.
+    Masks,
 }
 
 /// The figures of one segmenter at the threshold, with intervals.
@@ -72,7 +85,7 @@ pub struct SegmentationResult {
     /// Of the marked pixels, the share near wood.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub precision: Option<Estimate>,
-    /// Intersection over union of marked pixels and the strokes' bands.
+    /// Intersection over union of marked pixels and the strokes' bands, or the true masks.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub iou: Option<Estimate>,
     /// Of the length of posts and wires, the share that is marked.

@@ -6,6 +6,7 @@ mod calipers_text;
 mod detection;
 mod detection_text;
 mod methods;
+mod modes;
 mod results;
 mod robot;
 mod robot_text;
@@ -21,6 +22,7 @@ use methods::pickers;
 use pomona_evaluate::PickMethod;
 
 pub(crate) use arguments::EvaluateArguments;
+pub(crate) use modes::check_mode;
 
 pub(crate) fn run(arguments: &EvaluateArguments, terminal: Terminal) -> anyhow::Result<()> {
     if let Some(labelled) = &arguments.detection.detection {

@@ -26,7 +26,6 @@ mod summary;
 mod table;
 mod terminal;
 
-use clap::Parser;
 use std::io::ErrorKind;
 use std::process::ExitCode;
 
@@ -34,7 +33,7 @@ use std::process::ExitCode;
 const BAD_INPUT: u8 = 2;
 
 fn main() -> ExitCode {
-    let arguments = arguments::Arguments::parse();
+    let arguments = arguments::Arguments::read();
     let terminal = terminal::Terminal::new(arguments.color);
     match arguments.run(terminal) {
         Ok(()) => ExitCode::SUCCESS,

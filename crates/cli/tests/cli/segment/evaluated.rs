@@ -388,6 +388,88 @@ fn slips_of_the_command_line_are_usage_errors() {
 }
 
 #[test]
+fn options_of_another_mode_are_usage_errors() {
+    let dir = tempfile::tempdir().unwrap();
+    let out = text(&dir, "out");
+    for (mode, options, owner) in [
+        (
+            "lab15",
+            &[
+                "--strokes s.txt",
+                "--truth-masks m",
+                "--second-strokes s.txt",
+                "--segmenter built-in",
+                "--masks m",
+                "--wood-threshold 0.4",
+                "--tolerance-px 2",
+                "--apple-radii 3",
+            ][..],
+            "belongs to --segmentation, not to suites and frames with truth",
+        ),
+        (
+            "lab15",
+            &[
+                "--boxes b.json",
+                "--model built-in",
+                "--class apple",
+                "--label-class apple",
+                "--ignore-label x",
+                "--threshold 0.3",
+                "--lowest-score 0.1",
+                "--nms-iou 0.4",
+            ],
+            "belongs to --detection, not to suites and frames with truth",
+        ),
+        (
+            "lab15",
+            &["--runtime embedded", "--tiles whole"],
+            "belongs to --detection and --segmentation",
+        ),
+        (
+            "a --calipers c.csv",
+            &["--strokes s.txt", "--masks m"],
+            "belongs to --segmentation, not to --calipers",
+        ),
+        (
+            "a --calipers c.csv",
+            &["--calibration-poses 9"],
+            "belongs to suites and frames with truth, not to --calipers",
+        ),
+        (
+            "--detection x",
+            &["--strokes s.txt", "--wood-threshold 0.5"],
+            "belongs to --segmentation, not to --detection",
+        ),
+        (
+            "--detection x",
+            &["--robot"],
+            "belongs to suites and frames with truth, not to --detection",
+        ),
+        (
+            "--segmentation x",
+            &["--boxes b.json", "--threshold 0.25", "--nms-iou 0.4"],
+            "belongs to --detection, not to --segmentation",
+        ),
+        (
+            "--segmentation x",
+            &["--robot"],
+            "belongs to suites and frames with truth, not to --segmentation",
+        ),
+    ] {
+        for option in options {
+            let words: Vec<&str> = mode.split(' ').chain(option.split(' ')).collect();
+            let usage = pomona(&[&["evaluate", "--out", &out][..], &words].concat());
+            assert_eq!((usage.code, &*usage.out), (2, ""), "{option}");
+            let name = option.split(' ').next().unwrap();
+            let message = format!("error: {name} {owner}");
+            assert!(usage.err.contains(&message), "{option}: {}", usage.err);
+            assert!(usage.err.contains("pomona evaluate"), "{}", usage.err);
+        }
+    }
+    assert!(tree(dir.path()).is_empty());
+}
+
+#[test]
 fn masks_are_a_truth_as_strokes_are() {
     let dir = bench();
     fs::create_dir(dir.path().join("true")).unwrap();

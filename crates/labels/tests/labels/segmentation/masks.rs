@@ -9,17 +9,16 @@ use pomona_labels::{
     LabelsError, PixelVerdict, SegmentationEvaluation, SegmentationImage, SegmentationOptions,
     TruthKind, evaluate_segmentation, judge_pixels, masked_images,
 };
-use std::ops::Range;
 use std::path::Path;
 use tempfile::TempDir;
 
 const CLASSES: (&str, u8) = ("classes.png", 1);
 
-/// Writes a mask with a value in some rows, from column 0 to 100.
-fn mask(path: &Path, rows: &[Range<usize>], value: u8) {
+/// Writes a mask with a value in some rows, each from one to before another.
+fn mask(path: &Path, rows: &[[usize; 2]], value: u8) {
     let mut values = vec![0; WIDTH * HEIGHT];
-    for row in rows.iter().cloned().flatten() {
-        values[row * WIDTH..(row + 1) * WIDTH].fill(value);
+    for [start, end] in rows {
+        values[start * WIDTH..end * WIDTH].fill(value);
     }
     let mask = GrayImage {
         width: WIDTH,
@@ -30,7 +29,7 @@ fn mask(path: &Path, rows: &[Range<usize>], value: u8) {
 }
 
 /// One image with these marks and a mask with wood in these rows.
-fn bench(rows: &[Range<usize>], marks: &[Mark]) -> TempDir {
+fn bench(rows: &[[usize; 2]], marks: &[Mark]) -> TempDir {
     let dir = tempfile::tempdir().unwrap();
     std::fs::create_dir(dir.path().join("masks")).unwrap();
     let image = painted([WIDTH, HEIGHT], marks);
@@ -65,7 +64,7 @@ fn the_figures_are_those_of_the_same_strokes() {
         red(40, 0..20),
     ];
     // The bands of a stroke 5 px wide and of one of 3 px.
-    let of_masks = measured(&bench(&[18..23, 59..62], &marks)).unwrap();
+    let of_masks = measured(&bench(&[[18, 23], [59, 62]], &marks)).unwrap();
     let strokes = "wood 0,20.5,2.5 100,20.5,2.5\nwood 0,60.5,1.5 100,60.5,1.5\n";
     let of_strokes = Orchard::with(strokes, &marks).red();
     assert_eq!(of_masks.strokes.truth, TruthKind::Masks);
@@ -89,7 +88,7 @@ fn the_figures_are_those_of_the_same_strokes() {
 #[test]
 fn a_mark_is_right_within_the_tolerance_of_a_pixel_of_wood() {
     for (row, precise) in [(25, 1.0), (26, 0.0)] {
-        let evaluation = measured(&bench(&[18..23], &[red(row, 0..100)])).unwrap();
+        let evaluation = measured(&bench(&[[18, 23]], &[red(row, 0..100)])).unwrap();
         is(evaluation.results[0].precision, precise);
     }
 }
@@ -98,14 +97,14 @@ fn a_mark_is_right_within_the_tolerance_of_a_pixel_of_wood() {
 fn edges_do_not_count_for_calibration() {
     // Half of a band of eight rows: what is marked is right but for the rows along its edges.
     let marks: Vec<Mark> = (20..28).map(|row| red(row, 0..100)).collect();
-    let evaluation = measured(&bench(&[20..28], &marks)).unwrap();
+    let evaluation = measured(&bench(&[[20, 28]], &marks)).unwrap();
     let sure = evaluation.results[0].calibration.last().unwrap();
     assert_eq!((sure.pixels, sure.share), (600, 1.0));
 }
 
 #[test]
 fn images_are_those_of_the_masks() {
-    let dir = bench(&[18..23], &[]);
+    let dir = bench(&[[18, 23]], &[]);
     let at = |name: &str| dir.path().join(name);
     for folder in ["images", "scene-1", "masks/scene-1"] {
         std::fs::create_dir(at(folder)).unwrap();
@@ -114,8 +113,8 @@ fn images_are_those_of_the_masks() {
     for name in ["images/b_1.jpg", "scene-1/color.png", "c.png"] {
         image.write(at(name)).unwrap();
     }
-    mask(&at("masks/b_1.png"), &[18..23], 255);
-    mask(&at("masks/scene-1/classes.png"), &[18..23], 1);
+    mask(&at("masks/b_1.png"), &[[18, 23]], 255);
+    mask(&at("masks/scene-1/classes.png"), &[[18, 23]], 1);
     let names = |dir: &TempDir| -> Vec<String> {
         images(dir).unwrap().into_iter().map(|i| i.name).collect()
     };
@@ -127,7 +126,7 @@ fn images_are_those_of_the_masks() {
     );
 
     // With masks that say what they are, other images in the folder are none.
-    mask(&at("masks/c.wood.png"), &[18..23], 255);
+    mask(&at("masks/c.wood.png"), &[[18, 23]], 255);
     assert_eq!(names(&dir), ["c.png", "scene-1"]);
 
     let frame = masked_images(&at("scene-1"), &at("masks/scene-1"), CLASSES).unwrap();
@@ -146,7 +145,7 @@ fn classes_that_are_not_wood_are_none_and_unseen_pixels_do_not_count() {
     );
     image.write(dir.path().join("color.png")).unwrap();
     let path = dir.path().join("classes.png");
-    mask(&path, &[18..23], 1);
+    mask(&path, &[[18, 23]], 1);
     let mut classes = GrayImage::read(&path).unwrap();
     classes.values[40 * WIDTH..41 * WIDTH].fill(2);
     classes.values[60 * WIDTH..61 * WIDTH].fill(255);
@@ -215,10 +214,10 @@ fn verdicts_add_up_to_the_figures() {
 
 #[test]
 fn what_is_no_mask_of_the_image_is_refused() {
-    let dir = bench(&[18..23], &[]);
+    let dir = bench(&[[18, 23]], &[]);
     let at = |name: &str| dir.path().join(name);
     let refused = |words: &[&str]| says(&measured(&dir).unwrap_err(), words);
-    mask(&at("masks/a.png"), &[18..23], 254);
+    mask(&at("masks/a.png"), &[[18, 23]], 254);
     refused(&["a.png", "the value 254 at (0, 18)", "255 for wood and 0"]);
     let small = GrayImage {
         width: 3,

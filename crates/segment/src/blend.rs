@@ -2,6 +2,8 @@
 
 use crate::{classes::Classes, segmentation::Segmentation};
 use pomona_cloud::PixelWindow;
+use rayon::prelude::*;
+use std::ops::Range;
 
 /// Weight of a pixel at the very edge of a tile, where the network sees half of its surroundings.
 const LEAST_WEIGHT: f32 = 0.01;
@@ -12,6 +14,26 @@ pub(crate) struct Tile {
     pub(crate) planes: Vec<Vec<f32>>,
 }
 
+impl Tile {
+    /// Calls `visit` for each of its rows in an image of `[width, height]` pixels, with the row's pixels in the image and
+    /// in the tile, and the weights along it.
+    fn for_rows(
+        &self,
+        [width, height]: [usize; 2],
+        overlap: usize,
+        mut visit: impl FnMut(Range<usize>, Range<usize>, &[f32], f32),
+    ) {
+        let window = self.window;
+        let across = ramp(window.x0, window.x1, width, overlap);
+        let down = ramp(window.y0, window.y1, height, overlap);
+        for (v, down) in (window.y0..window.y1).zip(down) {
+            let here = v * width + window.x0..v * width + window.x1;
+            let there = (v - window.y0) * window.width()..(v - window.y0 + 1) * window.width();
+            visit(here, there, &across, down);
+        }
+    }
+}
+
 /// The weighted mean of the tiles at each pixel; unseen where none is.
 ///
 /// A tile's weight rises linearly from its edges over `overlap` pixels, except at the image's own edges: what lies in
@@ -19,39 +41,36 @@ pub(crate) struct Tile {
 pub(crate) fn blend(
     [width, height]: [usize; 2],
     classes: Classes,
-    tiles: Vec<Tile>,
+    tiles: &[Tile],
     overlap: usize,
 ) -> Segmentation {
-    let mut planes = vec![vec![0.0_f32; width * height]; classes.len()];
+    let size = [width, height];
     let mut weights = vec![0.0_f32; width * height];
-    for Tile {
-        window,
-        planes: own,
-    } in tiles
-    {
-        let across = ramp(window.x0, window.x1, width, overlap);
-        let down = ramp(window.y0, window.y1, height, overlap);
-        for (v, down) in (window.y0..window.y1).zip(&down) {
-            let here = v * width + window.x0..v * width + window.x1;
-            let there = (v - window.y0) * window.width()..(v - window.y0 + 1) * window.width();
-            for (weight, across) in weights[here.clone()].iter_mut().zip(&across) {
+    for tile in tiles {
+        tile.for_rows(size, overlap, |here, _, across, down| {
+            for (weight, across) in weights[here].iter_mut().zip(across) {
                 *weight += across * down;
             }
-            for (plane, own) in planes.iter_mut().zip(&own) {
-                let pixels = plane[here.clone()].iter_mut().zip(&own[there.clone()]);
-                for ((sum, p), across) in pixels.zip(&across) {
+        });
+    }
+    let plane = |class: usize| {
+        let mut plane = vec![0.0_f32; width * height];
+        for tile in tiles {
+            tile.for_rows(size, overlap, |here, there, across, down| {
+                let pixels = plane[here].iter_mut().zip(&tile.planes[class][there]);
+                for ((sum, p), across) in pixels.zip(across) {
                     *sum += across * down * p;
                 }
-            }
+            });
         }
-    }
-    // Of a pixel that no tile holds, 0/0 makes NaN: unseen.
-    for plane in &mut planes {
+        // Of a pixel that no tile holds, 0/0 makes NaN: unseen.
         for (sum, weight) in plane.iter_mut().zip(&weights) {
             *sum /= weight;
         }
-    }
-    Segmentation::of_probabilities([width, height], classes, planes)
+        plane
+    };
+    let planes = (0..classes.len()).into_par_iter().map(plane).collect();
+    Segmentation::of_probabilities(size, classes, planes)
 }
 
 /// The weights along one side of a tile from `start` to `end` in an image of `size` pixels.
@@ -90,7 +109,7 @@ mod tests {
     fn one_tile_fades_into_the_next() {
         let classes = Classes::by_names(["rest", "wood"]).unwrap();
         let tiles = vec![tile(0, 8, 0.0), tile(4, 12, 1.0)];
-        let seen = blend([14, 1], classes, tiles, 4);
+        let seen = blend([14, 1], classes, &tiles, 4);
         let wood = seen.role(Role::Wood);
         assert_eq!(&wood[..4], &[0.0; 4]);
         assert_eq!(&wood[8..12], &[1.0; 4]);
@@ -106,7 +125,7 @@ mod tests {
     fn tiles_that_agree_are_not_changed() {
         let classes = Classes::by_names(["rest", "wood"]).unwrap();
         let tiles = vec![tile(0, 8, 0.25), tile(3, 9, 0.25), tile(5, 12, 0.25)];
-        let seen = blend([12, 1], classes, tiles, 4);
+        let seen = blend([12, 1], classes, &tiles, 4);
         assert!(
             seen.role(Role::Wood)
                 .iter()

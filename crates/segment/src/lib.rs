@@ -48,7 +48,8 @@
 //!   recognised from the classes' names, or stated in the description beside the model; several classes may share one.
 //! - [`SegmenterOptions`] open one from an ONNX file, or the built-in one. That is an [`OnnxSegmenter`]: a network that
 //!   `pomona-network` loads and runs over tiles of the image. Where tiles overlap, their probabilities are averaged
-//!   with weights that fall to the tiles' edges, so that no seam shows.
+//!   with weights that fall to the tiles' edges, so that no seam shows. Small places of a large image are put beside
+//!   each other in few inputs by [`Segmenter::segment_places`].
 //! - The output is one tensor `[1, C, h, w]`, of logits or of probabilities; with a single channel it is one class
 //!   against the rest. Where h and w are not the input's, it is interpolated.
 //! - [`SegmentDescription`], a small TOML beside the model, states what the model does not tell.
@@ -73,6 +74,7 @@
 mod blend;
 mod built_in;
 mod classes;
+mod collage;
 mod description;
 mod error;
 mod onnx_segmenter;

@@ -1,6 +1,7 @@
 use crate::{
     blend::{Tile, blend},
     classes::Classes,
+    collage::Collage,
     description::{Activation, SegmentDescription},
     error::SegmentError,
     output::{Maps, Place, activate, channels},
@@ -31,6 +32,8 @@ pub struct OnnxSegmenter {
     /// Whether the output is one class against the rest.
     is_one: bool,
     tiling: Tiling,
+    /// The grey around pieces of the image, where these may be put beside each other in the input.
+    collage_fill: Option<u8>,
     notes: Vec<String>,
 }
 
@@ -61,9 +64,13 @@ impl OnnxSegmenter {
                 input[0], input[1]
             ));
         }
-        let tiling = Tiling::new(&description.tiling(tiling, input), input)?;
-        let network =
-            ImageNetwork::new(network, input, description.preparation()).map_err(model)?;
+        let options = description.tiling(tiling, input);
+        let is_native = options.choice == TilingChoice::Automatic
+            && options.tile == Some(input[0].max(input[1]));
+        let tiling = Tiling::new(&options, input)?;
+        let preparation = description.preparation();
+        let collage_fill = is_native.then_some(preparation.fill);
+        let network = ImageNetwork::new(network, input, preparation).map_err(model)?;
         let (channels, activation) = match (declared, description.activation) {
             (Some(channels), Some(activation)) => (channels, activation),
             (_, stated) => {
@@ -96,6 +103,7 @@ impl OnnxSegmenter {
             activation,
             is_one: channels == 1,
             tiling,
+            collage_fill,
             notes,
         })
     }
@@ -108,6 +116,43 @@ impl OnnxSegmenter {
     /// The windows of an image of `[width, height]` pixels that the network is run on for all of its pixels.
     pub fn windows(&self, image: [usize; 2]) -> Vec<PixelWindow> {
         self.tiling.windows(image)
+    }
+
+    /// How often the network is run for [`Segmenter::segment_windows`] of an image of `[width, height]` pixels.
+    pub fn runs_for_windows(&self, image: [usize; 2], windows: &[PixelWindow]) -> usize {
+        self.tiles_about(image, windows).len()
+    }
+
+    /// How often it is run for [`Segmenter::segment_places`].
+    pub fn runs_for_places(&self, image: [usize; 2], places: &[PixelWindow]) -> usize {
+        match self.collage(image, places) {
+            Some(collage) => collage.sheets(),
+            None => self.runs_for_windows(image, places),
+        }
+    }
+
+    /// The tiles that hold a pixel of a window.
+    fn tiles_about(&self, image: [usize; 2], windows: &[PixelWindow]) -> Vec<PixelWindow> {
+        let mut tiles = self.tiling.windows(image);
+        tiles.retain(|tile| windows.iter().any(|window| overlap(tile, window)));
+        tiles
+    }
+
+    /// A collage of these places, where the network need not be run as often for it as for their tiles.
+    fn collage(&self, image: [usize; 2], places: &[PixelWindow]) -> Option<Collage> {
+        self.collage_fill?;
+        let collage = Collage::new(image, places, self.network.input_size())?;
+        (collage.sheets() < self.runs_for_windows(image, places)).then_some(collage)
+    }
+
+    /// What the network sees in windows of an image.
+    fn run(&self, image: &ColorImage, windows: &[PixelWindow]) -> Result<Vec<Tile>, SegmentError> {
+        let read = |letterbox, outputs: Vec<_>| {
+            let maps = Maps::of(&outputs);
+            let tile = maps.and_then(|maps| self.tile(letterbox, &maps));
+            tile.map_err(|fault| SegmentError::from(NetworkError::model(&*self.name, fault)))
+        };
+        self.network.run_windows(image, windows, read)
     }
 
     /// What one window shows.
@@ -155,32 +200,34 @@ impl Segmenter for OnnxSegmenter {
         image: &ColorImage,
         windows: &[PixelWindow],
     ) -> Result<Segmentation, SegmentError> {
-        check_image(image)?;
+        check_windows(image, windows)?;
         let size = [image.width, image.height];
-        for window in windows {
-            let inside = window.x1 <= image.width && window.y1 <= image.height;
-            if !inside || window.is_empty() {
-                return Err(NetworkError::Window {
-                    width: image.width,
-                    height: image.height,
-                    window: *window,
-                }
-                .into());
-            }
-        }
-        let mut tiles = self.tiling.windows(size);
-        tiles.retain(|tile| windows.iter().any(|window| overlap(tile, window)));
-        let read = |letterbox, outputs: Vec<_>| {
-            let maps = Maps::of(&outputs);
-            let tile = maps.and_then(|maps| self.tile(letterbox, &maps));
-            tile.map_err(|fault| SegmentError::from(NetworkError::model(&*self.name, fault)))
-        };
-        let tiles = self.network.run_windows(image, &tiles, read)?;
+        let tiles = self.run(image, &self.tiles_about(size, windows))?;
         Ok(blend(
             size,
             self.classes.clone(),
-            tiles,
+            &tiles,
             self.tiling.overlap(),
+        ))
+    }
+
+    fn segment_places(
+        &self,
+        image: &ColorImage,
+        places: &[PixelWindow],
+    ) -> Result<Segmentation, SegmentError> {
+        check_windows(image, places)?;
+        let size = [image.width, image.height];
+        let (Some(collage), Some(fill)) = (self.collage(size, places), self.collage_fill) else {
+            return self.segment_windows(image, places);
+        };
+        let sheets = self.run(&collage.image(image, fill), &collage.windows())?;
+        let tiles = collage.tiles(&sheets);
+        Ok(blend(
+            size,
+            self.classes.clone(),
+            &tiles,
+            Collage::overlap(),
         ))
     }
 
@@ -191,6 +238,23 @@ impl Segmenter for OnnxSegmenter {
             notes: self.notes.clone(),
         }
     }
+}
+
+/// Whether there is an image, and every window is one of it.
+fn check_windows(image: &ColorImage, windows: &[PixelWindow]) -> Result<(), SegmentError> {
+    check_image(image)?;
+    for window in windows {
+        let inside = window.x1 <= image.width && window.y1 <= image.height;
+        if !inside || window.is_empty() {
+            return Err(NetworkError::Window {
+                width: image.width,
+                height: image.height,
+                window: *window,
+            }
+            .into());
+        }
+    }
+    Ok(())
 }
 
 fn overlap(a: &PixelWindow, b: &PixelWindow) -> bool {

@@ -35,6 +35,15 @@ impl SegmenterOptions {
     ///
     /// [`SegmentError`] for a model, a description, an inference backend or a tiling that cannot be used.
     pub fn open(&self) -> Result<Box<dyn Segmenter>, SegmentError> {
+        Ok(Box::new(self.open_network()?))
+    }
+
+    /// The same as the type that it is.
+    ///
+    /// # Errors
+    ///
+    /// As [`SegmenterOptions::open`].
+    pub fn open_network(&self) -> Result<OnnxSegmenter, SegmentError> {
         let (source, name, description) = match &self.model {
             Some(path) => (
                 ModelSource::File(path.clone()),
@@ -44,7 +53,6 @@ impl SegmenterOptions {
             None => built_in::model()?,
         };
         let network = open_network(&source, &self.runtime, THREADS_PER_RUN)?;
-        let segmenter = OnnxSegmenter::new(network, name, &description, self.tiling)?;
-        Ok(Box::new(segmenter))
+        OnnxSegmenter::new(network, name, &description, self.tiling)
     }
 }

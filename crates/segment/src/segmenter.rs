@@ -6,7 +6,7 @@ use serde::Serialize;
 /// Tells what each pixel of a colour image shows.
 ///
 /// One segmenter serves many threads. The same image gives the same probabilities, and those of a pixel do not depend
-/// on which other windows are asked for.
+/// on which other windows are asked for; on which other places they may.
 pub trait Segmenter: Send + Sync {
     /// The classes that it tells apart.
     fn classes(&self) -> &Classes;
@@ -21,6 +21,20 @@ pub trait Segmenter: Send + Sync {
         image: &ColorImage,
         windows: &[PixelWindow],
     ) -> Result<Segmentation, SegmentError>;
+
+    /// The same for places that are small and far apart, faster: they may be put beside each other for a network, which
+    /// then sees less around each, so that their probabilities differ a little from those of the whole image.
+    ///
+    /// # Errors
+    ///
+    /// As [`Segmenter::segment_windows`].
+    fn segment_places(
+        &self,
+        image: &ColorImage,
+        places: &[PixelWindow],
+    ) -> Result<Segmentation, SegmentError> {
+        self.segment_windows(image, places)
+    }
 
     /// Which segmenter this is, for the record.
     fn report(&self) -> SegmenterReport;

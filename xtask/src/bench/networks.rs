@@ -25,6 +25,8 @@ struct Line {
     #[serde(default)]
     processor_milliseconds: Vec<f64>,
     detections: Option<usize>,
+    windows: Option<usize>,
+    mean_difference: Option<f64>,
 }
 
 /// What is written down of it; times in milliseconds.
@@ -42,6 +44,12 @@ struct Row {
     processor: Option<Times>,
     #[serde(skip_serializing_if = "Option::is_none")]
     detections: Option<usize>,
+    /// How often the network is run.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    windows: Option<usize>,
+    /// How far the probabilities of wood are from those in the middle of the network's input, in the mean.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    mean_difference: Option<f64>,
 }
 
 /// Milliseconds; half of the rounds lie between the quartiles.
@@ -166,6 +174,8 @@ impl Row {
             threads: line.threads,
             absent: line.absent,
             detections: line.detections,
+            windows: line.windows,
+            mean_difference: line.mean_difference,
         }
     }
 }
@@ -207,14 +217,26 @@ fn table(rows: &[Row]) -> String {
             (Some(reason), _) => format!("absent: {reason}"),
             (None, elapsed) => format!("{}  {}", cell(elapsed), cell(row.processor)),
         };
-        let found = row
+        let mut found = row
             .detections
             .map_or_else(String::new, |count| format!("  {count} detections"));
+        if let Some(windows) = row.windows {
+            let _ = write!(found, "  {windows} runs");
+        }
         let _ = writeln!(
             text,
             "{:name$}  {:runtime$}  {:>7}  {times}{found}",
             row.name, row.runtime, row.threads
         );
+    }
+    for row in rows {
+        if let Some(difference) = row.mean_difference {
+            let _ = writeln!(
+                text,
+                "seams: mean difference {difference:.4}, {}, {}",
+                row.name, row.runtime
+            );
+        }
     }
     text + "Time on the processor is what one quiet core would take or a little more; on a busy machine the \
             elapsed time is not.\n"
@@ -254,5 +276,12 @@ mod tests {
             r#"{"name": "ours", "runtime": "embedded", "threads": 1, "milliseconds": [3.0, 2.0]}"#;
         let row = Row::of(serde_json::from_str(line).unwrap());
         assert!(table(&[row]).contains("2.0     2.5  [2.0, 3.0]"));
+        let line = r#"{"name": "a frame", "runtime": "embedded", "threads": 2, "windows": 18, "mean_difference": 0.01234}"#;
+        let text = table(&[Row::of(serde_json::from_str(line).unwrap())]);
+        assert!(text.contains("18 runs"), "{text}");
+        assert!(
+            text.contains("seams: mean difference 0.0123, a frame, embedded"),
+            "{text}"
+        );
     }
 }

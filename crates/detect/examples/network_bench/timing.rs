@@ -23,6 +23,12 @@ pub(crate) struct Line {
     /// What came out, for the frame.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) detections: Option<usize>,
+    /// How often the network is run.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) windows: Option<usize>,
+    /// How far the probabilities are from those in the middle of the network's input, in the mean.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) mean_difference: Option<f64>,
 }
 
 impl Line {
@@ -35,6 +41,8 @@ impl Line {
             milliseconds: Vec::new(),
             processor_milliseconds: Vec::new(),
             detections: None,
+            windows: None,
+            mean_difference: None,
         }
     }
 

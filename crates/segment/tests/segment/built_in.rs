@@ -86,3 +86,63 @@ fn a_part_of_the_image_shows_what_the_whole_shows() {
         }
     }
 }
+
+/// The mean difference of the probabilities of wood in the pixels that `counts` takes.
+fn mean_difference(a: &[f32], b: &[f32], counts: impl Fn(usize) -> bool) -> f64 {
+    let (mut sum, mut pixels) = (0.0, 0.0);
+    for (k, (a, b)) in a.iter().zip(b).enumerate().filter(|(k, _)| counts(*k)) {
+        assert!(a.is_finite() && b.is_finite(), "{k} is seen");
+        sum += f64::from((a - b).abs());
+        pixels += 1.0;
+    }
+    sum / pixels
+}
+
+/// Most that probabilities may differ in the mean by where the network's input begins.
+const SEAM: f64 = 0.02;
+
+#[test]
+fn no_seam_shows_between_tiles() {
+    // Two tiles, and one window over the seam between them.
+    const SIDE: usize = 416;
+    let image = drawn(700, SIDE);
+    let segmenter = open(&RuntimeChoice::Embedded).unwrap();
+    let tiled = segmenter.segment(&image).unwrap().role(Role::Wood);
+    let first = (image.width - SIDE) / 2;
+    let mut middle = ColorImage::filled(SIDE, SIDE, [0; 3]);
+    for (v, row) in middle.pixels.chunks_exact_mut(SIDE).enumerate() {
+        row.copy_from_slice(&image.pixels[v * image.width + first..][..SIDE]);
+    }
+    let seen = segmenter.segment(&middle).unwrap().role(Role::Wood);
+    let mut reference = vec![f32::NAN; tiled.len()];
+    for (v, row) in seen.chunks_exact(SIDE).enumerate() {
+        reference[v * image.width + first..][..SIDE].copy_from_slice(row);
+    }
+    // A quarter of the window on either side of its middle, where the tiles overlap.
+    let near = |k: usize| (k % image.width).abs_diff(image.width / 2) <= SIDE / 4;
+    let mean = mean_difference(&tiled, &reference, near);
+    assert!(mean <= SEAM, "{mean}");
+}
+
+#[test]
+fn places_side_by_side_are_seen_as_they_are_in_the_image() {
+    let image = drawn(900, 500);
+    let segmenter = open(&RuntimeChoice::Embedded).unwrap();
+    let place = |x0: usize, y0: usize| PixelWindow {
+        x0,
+        y0,
+        x1: x0 + 100,
+        y1: y0 + 100,
+    };
+    let places = [place(0, 0), place(420, 180), place(760, 390)];
+    let seen = segmenter.segment_places(&image, &places).unwrap();
+    assert!(seen.seen_share() < 0.15, "{}", seen.seen_share());
+    let whole = segmenter.segment(&image).unwrap();
+    let asked = |k: usize| {
+        let (u, v) = (k % image.width, k / image.width);
+        let holds = |p: &PixelWindow| (p.x0..p.x1).contains(&u) && (p.y0..p.y1).contains(&v);
+        places.iter().any(holds)
+    };
+    let mean = mean_difference(&seen.role(Role::Wood), &whole.role(Role::Wood), asked);
+    assert!(mean <= SEAM, "{mean}");
+}

@@ -8,4 +8,5 @@
 mod built_in;
 mod fake_network;
 mod hostile;
+mod places;
 mod tiles;

@@ -8,6 +8,9 @@ use std::path::PathBuf;
 /// What `--model` calls the bundled model.
 pub(crate) const BUILT_IN: &str = "built-in";
 
+/// What options that may go without a model call none.
+const NO_MODEL: &str = "none";
+
 /// Heading of these options.
 const HEADING: &str = "Detector";
 
@@ -50,6 +53,13 @@ pub(crate) enum Model {
     BuiltIn,
     /// This file.
     File(PathBuf),
+}
+
+impl Model {
+    /// Whether it is the word for no model at all, which some options take.
+    pub(crate) fn is_none(&self) -> bool {
+        matches!(self, Self::File(path) if path.as_os_str() == NO_MODEL)
+    }
 }
 
 impl DetectorArguments {

@@ -30,6 +30,17 @@ pub enum EvaluateError {
     /// A frame could not be read.
     #[error(transparent)]
     Frame(#[from] pomona_cloud::CloudError),
+    /// A file of strokes could not be read.
+    #[error(transparent)]
+    Labels(#[from] pomona_labels::LabelsError),
+    /// A segmenter could not work on the colour image of a frame.
+    #[error("{frame}: {source}")]
+    Segmentation {
+        /// The frame.
+        frame: String,
+        /// What it said.
+        source: Box<pomona_segment::SegmentError>,
+    },
     /// A method could not work on a frame at all.
     #[error(transparent)]
     Pick(#[from] pomona::PickError),

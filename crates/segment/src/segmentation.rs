@@ -2,7 +2,7 @@ use crate::{
     classes::{Classes, Role},
     error::SegmentError,
 };
-use pomona_cloud::PixelWindow;
+use pomona_cloud::{GrayImage, PixelWindow};
 
 /// The class number of a pixel that nobody asked about.
 pub const UNSEEN: u8 = 255;
@@ -159,6 +159,17 @@ impl Segmentation {
             }
         }
         sum
+    }
+
+    /// The probabilities of a role × 255, rounded; 0 where unseen. This is the form of `NAME.wood.png`.
+    pub fn mask(&self, role: Role) -> GrayImage {
+        // A cast of NaN is 0.
+        let byte = |p: &f32| (p * 255.0).round() as u8;
+        GrayImage {
+            width: self.width,
+            height: self.height,
+            values: self.role(role).iter().map(byte).collect(),
+        }
     }
 
     /// The number of the likeliest class of each pixel, row by row, the first of equals; [`UNSEEN`] where unseen.

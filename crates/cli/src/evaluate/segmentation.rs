@@ -20,6 +20,8 @@ use std::path::{Path, PathBuf};
 
 /// Heading of these options.
 const HEADING: &str = "Segmentation";
+/// The options of which one says what strokes are for.
+pub(super) const STROKED: &str = "stroked";
 const SEGMENTATION: &str = "segmentation.json";
 /// The strokes of a folder, where `--strokes` is not given.
 const STROKES: &str = "strokes.txt";
@@ -30,18 +32,19 @@ const OPACITY: f32 = 0.6;
 #[derive(Clone, Debug, Default, Args)]
 pub(super) struct SegmentationArguments {
     /// Measure masks of wood on strokes drawn by eye: the folder of the images (or of their `images/`, or of frames).
-    #[arg(long, value_name = "FOLDER", help_heading = HEADING, conflicts_with_all = ["subjects", "methods", "variants", "SettingValues", "calipers", "detection"])]
+    #[arg(long, value_name = "FOLDER", help_heading = HEADING, group = STROKED, conflicts_with_all = ["subjects", "methods", "variants", "SettingValues", "calipers", "detection"])]
     pub(super) segmentation: Option<PathBuf>,
-    /// The strokes. Default: strokes.txt in the folder.
-    #[arg(long, value_name = "FILE", requires = "segmentation", help_heading = HEADING)]
-    strokes: Option<PathBuf>,
+    /// The strokes, also with --real. Default: strokes.txt in the folder; with --real wood.txt in each frame's folder.
+    #[arg(long, value_name = "FILE", requires = STROKED, help_heading = HEADING)]
+    pub(super) strokes: Option<PathBuf>,
     /// A second person's strokes of some of the images, for the agreement of their centre lines with these.
     #[arg(long, value_name = "FILE", requires = "segmentation", help_heading = HEADING)]
     second_strokes: Option<PathBuf>,
     /// A segmentation model to measure (ONNX), or `built-in`; may be repeated. Default: built-in, unless --masks are
-    /// given.
-    #[arg(long = "segmenter", value_name = "FILE", value_parser = parse_model, requires = "segmentation", help_heading = HEADING)]
-    segmenters: Vec<Model>,
+    /// given. With --real the model that tells the methods where wood is, or `none`; default: built-in, unless
+    /// --wood-masks are given.
+    #[arg(long = "segmenter", value_name = "FILE", value_parser = parse_model, requires = STROKED, help_heading = HEADING)]
+    pub(super) segmenters: Vec<Model>,
     /// Masks of another program: a folder with NAME.wood.png (or NAME.png) for each image, grey, 255 where it is
     /// sure of wood; may be repeated.
     #[arg(long, value_name = "FOLDER", requires = "segmentation", help_heading = HEADING)]
@@ -52,9 +55,10 @@ pub(super) struct SegmentationArguments {
     /// Distance in pixels within which wood is found and a mark is right.
     #[arg(long, value_name = "PX", default_value_t = 3.0, value_parser = parse_tolerance, requires = "segmentation", help_heading = HEADING)]
     tolerance_px: f64,
-    /// Count only what lies within N radii of the apples boxed in each frame, where only that has been drawn in.
-    #[arg(long, value_name = "N", value_parser = parse_tolerance, requires = "segmentation", help_heading = HEADING)]
-    apple_radii: Option<f64>,
+    /// Count only what lies within N radii of the apples boxed in each frame, where only that has been drawn in. With
+    /// --real and without --apples: the wood of an apple is seen where wood is drawn within N radii (default 3).
+    #[arg(long, value_name = "N", value_parser = parse_tolerance, requires = STROKED, help_heading = HEADING)]
+    pub(super) apple_radii: Option<f64>,
 }
 
 fn parse_tolerance(text: &str) -> Result<f64, String> {
@@ -141,6 +145,9 @@ impl SegmentationArguments {
                 Model::BuiltIn => BUILT_IN.to_owned(),
                 Model::File(path) => stem(path),
             };
+            if model.is_none() {
+                bail!("--segmenter none: give a model to measure, or masks by --masks");
+            }
             if opened.iter().any(|(other, _)| *other == name) {
                 bail!(
                     "--segmenter: `{name}` is given twice; give each once, and files names of their own"

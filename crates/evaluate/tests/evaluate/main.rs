@@ -2,5 +2,6 @@
 
 mod calipers;
 mod evaluation;
+mod real;
 mod robot;
 mod sabotage;

@@ -1,0 +1,121 @@
+//! Directions on real frames against strokes of wood drawn by eye.
+
+use super::arguments::EvaluateArguments;
+use super::real_text;
+use super::results::{REPORT, json};
+use super::segmentation::STROKED;
+use crate::detector::Model;
+use crate::segmenter::{open, say};
+use crate::terminal::Terminal;
+use anyhow::{anyhow, bail};
+use clap::Args;
+use pomona_cloud::GrayImage;
+use pomona_evaluate::{
+    AppleWoodTable, PickMethod, REAL_SCHEMA, RealFrame, RealOptions, measure_real,
+    read_real_frames, real_csv, real_page,
+};
+use std::path::{Path, PathBuf};
+
+/// Heading of these options.
+const HEADING: &str = "Real frames";
+const REAL: &str = "real.json";
+const ROWS: &str = "real.csv";
+/// What the record calls masks of another program.
+const MASKS: &str = "masks";
+
+/// What `--real` measures.
+#[derive(Clone, Debug, Default, Args)]
+pub(super) struct RealArguments {
+    /// Measure directions on real frames: against the strokes of wood that a person drew in them (--strokes, or wood.txt
+    /// in each frame's folder).
+    #[arg(long, group = STROKED, requires = "subjects", conflicts_with_all = ["calipers", "detection", "count", "robot"], help_heading = HEADING)]
+    pub(super) real: bool,
+    /// Which apples' wood a person sees: CSV with the columns frame, box_name and wood (seen, doubtful or none). Default:
+    /// it is seen where wood is drawn near the box (--apple-radii).
+    #[arg(long, value_name = "FILE", requires = "real", conflicts_with = "apple_radii", help_heading = HEADING)]
+    apples: Option<PathBuf>,
+    /// Tell the methods where wood is by the masks of another program: a folder with NAME.wood.png for each frame, grey,
+    /// 255 where it is sure of wood.
+    #[arg(long, value_name = "FOLDER", requires = "real", conflicts_with = "segmenters", help_heading = HEADING)]
+    wood_masks: Option<PathBuf>,
+}
+
+pub(super) fn run(
+    arguments: &EvaluateArguments,
+    methods: &[&dyn PickMethod],
+    terminal: Terminal,
+) -> anyhow::Result<()> {
+    let own = &arguments.real;
+    let output = arguments
+        .results
+        .claim(REAL, REAL_SCHEMA, |name| name == ROWS)?;
+    let mut options = RealOptions::default();
+    options.seed = arguments.seed;
+    if let Some(path) = &own.apples {
+        options.apples = Some(AppleWoodTable::read(path)?);
+    }
+    if let Some(radii) = arguments.segmentation.apple_radii {
+        options.apple_radii = radii;
+    }
+    let folders: Vec<PathBuf> = arguments.subjects.iter().map(PathBuf::from).collect();
+    let mut frames = read_real_frames(&folders, arguments.segmentation.strokes.as_deref())?;
+    options.wood = add_wood(arguments, &mut frames, terminal)?;
+    let report = measure_real(&frames, methods, &options)?;
+    let files = output.stage()?;
+    files.write_text(REAL, &json(&report)?)?;
+    files.write_text(ROWS, &real_csv(&report)?)?;
+    files.write_text(REPORT, &real_page(&report))?;
+    files.publish()?;
+    arguments
+        .results
+        .print(&report, &real_text::tables(&report, terminal))
+}
+
+/// Gives each frame the probability of wood that is asked for; what it comes from.
+fn add_wood(
+    arguments: &EvaluateArguments,
+    frames: &mut [RealFrame],
+    terminal: Terminal,
+) -> anyhow::Result<Option<String>> {
+    if let Some(folder) = &arguments.real.wood_masks {
+        for frame in frames {
+            frame.wood = Some(mask(folder, frame)?);
+        }
+        return Ok(Some(MASKS.to_owned()));
+    }
+    let model = match &*arguments.segmentation.segmenters {
+        [] => &Model::BuiltIn,
+        [model] if model.is_none() => return Ok(None),
+        [model] => model,
+        _ => bail!("--segmenter is given twice; with --real give it once"),
+    };
+    let settings = arguments.detection.settings();
+    let segmenter = open(model, settings.runtime(), settings.tiles())?;
+    say(&segmenter.report(), terminal);
+    for frame in frames {
+        frame.segment(&*segmenter)?;
+    }
+    Ok(Some(segmenter.report().name))
+}
+
+/// The mask of a frame in a folder.
+fn mask(folder: &Path, frame: &RealFrame) -> anyhow::Result<GrayImage> {
+    let path = folder.join(format!("{}.wood.png", frame.frame.id));
+    if !path.is_file() {
+        return Err(anyhow!(
+            "{}: there is no such file; `pomona segment` writes one for each frame",
+            path.display()
+        ));
+    }
+    let mask = GrayImage::read(&path)?;
+    let (width, height) = (frame.frame.color.width, frame.frame.color.height);
+    if (mask.width, mask.height) != (width, height) {
+        bail!(
+            "{}: {}x{} pixels for a frame of {width}x{height}; write the mask in the frame's size",
+            path.display(),
+            mask.width,
+            mask.height
+        );
+    }
+    Ok(mask)
+}

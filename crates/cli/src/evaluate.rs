@@ -8,6 +8,7 @@ mod detection;
 mod detection_text;
 mod methods;
 mod real;
+mod real_arguments;
 mod real_text;
 mod results;
 mod robot;
@@ -64,7 +65,7 @@ mod tests {
     use crate::pick::PICKS;
     use crate::settings::SettingValues;
     use detection::DetectionArguments;
-    use real::RealArguments;
+    use real_arguments::RealArguments;
     use results::{REPORT, Results};
     use robot::RobotArguments;
     use segmentation::SegmentationArguments;

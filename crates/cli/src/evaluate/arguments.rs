@@ -1,7 +1,7 @@
 //! What the command line says.
 
 use super::detection::DetectionArguments;
-use super::real::RealArguments;
+use super::real_arguments::RealArguments;
 use super::results::Results;
 use super::robot::RobotArguments;
 use super::segmentation::SegmentationArguments;

@@ -3,12 +3,10 @@
 use super::arguments::EvaluateArguments;
 use super::real_text;
 use super::results::{REPORT, json};
-use super::segmentation::STROKED;
 use crate::detector::Model;
 use crate::segmenter::{open, say};
 use crate::terminal::Terminal;
 use anyhow::{anyhow, bail};
-use clap::Args;
 use pomona_cloud::GrayImage;
 use pomona_evaluate::{
     AppleWoodTable, PickMethod, REAL_SCHEMA, RealFrame, RealOptions, measure_real,
@@ -16,29 +14,10 @@ use pomona_evaluate::{
 };
 use std::path::{Path, PathBuf};
 
-/// Heading of these options.
-const HEADING: &str = "Real frames";
 const REAL: &str = "real.json";
 const ROWS: &str = "real.csv";
 /// What the record calls masks of another program.
 const MASKS: &str = "masks";
-
-/// What `--real` measures.
-#[derive(Clone, Debug, Default, Args)]
-pub(super) struct RealArguments {
-    /// Measure directions on real frames: against the strokes of wood that a person drew in them (--strokes, or wood.txt
-    /// in each frame's folder).
-    #[arg(long, group = STROKED, requires = "subjects", conflicts_with_all = ["calipers", "detection", "count", "robot"], help_heading = HEADING)]
-    pub(super) real: bool,
-    /// Which apples' wood a person sees: CSV with the columns frame, box_name and wood (seen, doubtful or none). Default:
-    /// it is seen where wood is drawn near the box (--apple-radii).
-    #[arg(long, value_name = "FILE", requires = "real", conflicts_with = "apple_radii", help_heading = HEADING)]
-    apples: Option<PathBuf>,
-    /// Tell the methods where wood is by the masks of another program: a folder with NAME.wood.png for each frame, grey,
-    /// 255 where it is sure of wood.
-    #[arg(long, value_name = "FOLDER", requires = "real", conflicts_with = "segmenters", help_heading = HEADING)]
-    wood_masks: Option<PathBuf>,
-}
 
 pub(super) fn run(
     arguments: &EvaluateArguments,

@@ -4,6 +4,7 @@ mod arguments;
 mod files;
 mod jobs;
 mod session;
+mod wood;
 
 use crate::fuse;
 use crate::output_folder::OutputFolder;
@@ -30,7 +31,7 @@ pub(crate) fn run(arguments: &PickArguments, terminal: Terminal) -> anyhow::Resu
         .fuse
         .then(|| fuse::claim(&arguments.frames, &arguments.out))
         .transpose()?;
-    let jobs = jobs(&arguments.frames, &arguments.out, arguments.boxes.is_some())?;
+    let jobs = jobs(&arguments.frames, &arguments.out, arguments.of_one_frame())?;
     let poses = poses(arguments, &session, &jobs)?;
 
     let answers = answer_all(arguments, &session, &jobs, &poses, terminal)?;

@@ -49,6 +49,7 @@
 //! - [`SegmenterOptions`] open one from an ONNX file, or the built-in one. That is an [`OnnxSegmenter`]: a network that
 //!   `pomona-network` loads and runs over tiles of the image. Where tiles overlap, their probabilities are averaged
 //!   with weights that fall to the tiles' edges, so that no seam shows.
+//! - [`SegmenterOptions::zooms`] are the scales at which an image is looked at; the result is the mean of all of them.
 //! - The output is one tensor `[1, C, h, w]`, of logits or of probabilities; with a single channel it is one class
 //!   against the rest. Where h and w are not the input's, it is interpolated.
 //! - [`SegmentDescription`], a small TOML beside the model, states what the model does not tell.
@@ -80,6 +81,7 @@ mod options;
 mod output;
 mod segmentation;
 mod segmenter;
+mod zooms;
 
 pub use classes::{Classes, Role};
 pub use description::{Activation, SegmentDescription};

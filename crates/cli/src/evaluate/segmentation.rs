@@ -55,6 +55,9 @@ pub(super) struct SegmentationArguments {
     /// Count only what lies within N radii of the apples boxed in each frame, where only that has been drawn in.
     #[arg(long, value_name = "N", value_parser = parse_tolerance, requires = "segmentation", help_heading = HEADING)]
     apple_radii: Option<f64>,
+    /// Scales at which models look at an image, separated by commas; the result is the mean.
+    #[arg(long, value_name = "ZOOM", value_delimiter = ',', default_value = "1", requires = "segmentation", help_heading = HEADING)]
+    zoom: Vec<f64>,
 }
 
 fn parse_tolerance(text: &str) -> Result<f64, String> {
@@ -146,7 +149,7 @@ impl SegmentationArguments {
                     "--segmenter: `{name}` is given twice; give each once, and files names of their own"
                 );
             }
-            let segmenter = open(model, settings.runtime(), settings.tiles())?;
+            let segmenter = open(model, settings.runtime(), settings.tiles(), &self.zoom)?;
             say(&segmenter.report(), terminal);
             opened.push((name, segmenter));
         }

@@ -1,0 +1,81 @@
+//! What is wood about the apples of a frame.
+
+use crate::detector::{BUILT_IN, Model, parse_model};
+use crate::segment::wood_bytes;
+use crate::segmenter::{open as open_segmenter, say};
+use crate::terminal::Terminal;
+use pomona_cloud::{ColorImage, GrayImage, PixelBox, PixelWindow};
+use pomona_segment::{RuntimeChoice, Segmenter, TilingChoice};
+
+/// The word for no segmenter.
+const NONE: &str = "none";
+
+/// Scales at which a frame is looked at: at its own resolution for what things belong to, enlarged for thin twigs.
+const ZOOMS: [f64; 2] = [1.0, 2.0];
+
+/// How far about an apple wood is told, half sides of its box: beyond the reach of the search for branches.
+const REACH: f64 = 3.6;
+
+/// Which segmenter tells wood.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum SegmenterChoice {
+    /// None.
+    None,
+    /// This model.
+    Model(Model),
+}
+
+pub(super) fn parse_segmenter(text: &str) -> Result<SegmenterChoice, String> {
+    if text == NONE {
+        return Ok(SegmenterChoice::None);
+    }
+    let model =
+        parse_model(text).map_err(|error| format!("{error}; or `{BUILT_IN}` or `{NONE}`"))?;
+    Ok(SegmenterChoice::Model(model))
+}
+
+/// Opens the segmenter, and says what was assumed about it.
+pub(super) fn open(
+    model: &Model,
+    runtime: &RuntimeChoice,
+    terminal: Terminal,
+) -> anyhow::Result<Box<dyn Segmenter>> {
+    let segmenter = open_segmenter(model, runtime, TilingChoice::Automatic, &ZOOMS)?;
+    say(&segmenter.report(), terminal);
+    Ok(segmenter)
+}
+
+/// The probability of wood about the boxes; 0 elsewhere.
+pub(super) fn about(
+    segmenter: &dyn Segmenter,
+    image: &ColorImage,
+    boxes: &[&PixelBox],
+) -> anyhow::Result<GrayImage> {
+    let (width, height) = (image.width, image.height);
+    let windows: Vec<PixelWindow> = boxes
+        .iter()
+        .map(|b| {
+            let middle = (0.5 * (b.x_min + b.x_max), 0.5 * (b.y_min + b.y_max));
+            let reach = REACH * 0.5 * (b.x_max - b.x_min).max(b.y_max - b.y_min);
+            PixelWindow::clamped(
+                middle.0 - reach,
+                middle.1 - reach,
+                middle.0 + reach,
+                middle.1 + reach,
+                width,
+                height,
+            )
+        })
+        .filter(|window| !window.is_empty())
+        .collect();
+    let values = if windows.is_empty() {
+        vec![0; width * height]
+    } else {
+        wood_bytes(&segmenter.segment_windows(image, &windows)?)
+    };
+    Ok(GrayImage {
+        width,
+        height,
+        values,
+    })
+}

@@ -1,0 +1,224 @@
+//! Branches in the colour image: what a segmenter takes for wood, followed as lines in the image, brought into space
+//! by the depth that there is, and the nearest of them chosen.
+//!
+//! 1. **Crossings** (`crossings`): where a row or a column of pixels crosses something narrow that may be wood.
+//! 2. **Lines** (`line`): through crossings, by the RANSAC engine; the distance from the apple is a constraint, and all
+//!    distinct lines are candidates, not the best alone.
+//! 3. **Evidence** (`evidence`): by how much a candidate's band stands out from what lies beside it, where it is nearest
+//!    to the apple.
+//! 4. **Depth** (`depth`): from the readings on the band. Where there are none, wood in front of the apple lies on it,
+//!    and other wood about as far off as the apple.
+//! 5. **Nearest first** (`nearest`): the probability that a candidate is wood and that none of the nearer ones is.
+
+mod crossings;
+mod depth;
+mod evidence;
+mod line;
+mod nearest;
+
+use super::apple::SeenApple;
+use super::axis::BranchAxis;
+use super::axis_fit::AxisSupport;
+use super::branch::Candidate;
+use super::confidence::without_candidate;
+use crate::config::RobustConfig;
+use crate::optics::{Projection, window_of_sphere};
+use crate::outcome::Status;
+use crossings::Crossings;
+use depth::Lifted;
+use evidence::{Band, Evidence};
+use line::{ImageLine, image_lines};
+use nalgebra::Point3;
+use nearest::{Place, nearest_first};
+use pomona_cloud::{DepthImage, GrayImage, PixelBox};
+use pomona_geometry::Sphere;
+use rand_chacha::ChaCha8Rng;
+
+/// Distance from the apple's centre within which wood is looked for, radii of the apple.
+const REACH_RADII: f64 = 3.0;
+
+/// Beyond that the image is looked at for what goes on there, radii of the apple.
+const MARGIN_RADII: f64 = 0.4;
+
+/// Ratio of a box's sides from which it is not that of a whole apple.
+const MOST_ASPECT: f64 = 1.5;
+
+/// Distance between the fitted centre and the middle of the box up to which the box shows the whole apple, radii of
+/// the apple.
+const MOST_SHIFT_RADII: f64 = 0.6;
+
+/// Everything that the search for wood reads.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct WoodSearch<'a> {
+    pub(crate) wood: &'a GrayImage,
+    pub(crate) depth: &'a DepthImage,
+    pub(crate) projection: &'a Projection<'a>,
+    pub(crate) apple: Sphere,
+    /// The apple's box, drawn or detected in the colour image.
+    pub(crate) bounds: &'a PixelBox,
+    /// Standard deviation of a reading at the apple's depth, metres.
+    pub(crate) sigma: f64,
+    pub(crate) config: &'a RobustConfig,
+}
+
+/// A branch seen in colour.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct WoodCandidate {
+    pub(crate) candidate: Candidate,
+    /// Probability that it is wood.
+    pub(crate) wood: f64,
+    /// Probability that it is the nearest wood.
+    pub(crate) nearest: f64,
+}
+
+/// Probability of being wood from which a candidate that is not sure to be the nearest makes the answer ambiguous.
+const AMBIGUOUS_WOOD: f64 = 0.5;
+
+/// Why the likeliest candidate is not sure enough.
+pub(crate) fn refusal(found: &SeenApple, ranked: &[WoodCandidate]) -> Status {
+    if ranked.iter().any(|c| c.wood > AMBIGUOUS_WOOD) {
+        Status::AmbiguousBranch
+    } else {
+        without_candidate(found)
+    }
+}
+
+impl WoodSearch<'_> {
+    /// The candidates, the likeliest to be the nearest wood first: lines of the colour image, and the axes that depth
+    /// alone has found, judged by the same image.
+    pub(crate) fn candidates(
+        &self,
+        by_depth: &[Candidate],
+        rng: &mut ChaCha8Rng,
+    ) -> Vec<WoodCandidate> {
+        let Some(band) = self.band() else {
+            return Vec::new();
+        };
+        let widest = 2.0 * self.config.branch_radius_max_m / self.pixel();
+        let crossings = Crossings::of(self.wood, band.window, widest);
+        let lines = image_lines(&crossings, band.center, band.radius, rng);
+        let of_lines = lines.iter().filter_map(|line| {
+            let evidence = band.evidence(line)?;
+            let lifted = Lifted::new(self, &band, line, &evidence)?;
+            self.candidate(&lifted, &evidence)
+        });
+        let of_depth = by_depth.iter().filter_map(|candidate| {
+            let evidence = band.evidence_at_foot(&self.image_line(&band, candidate)?)?;
+            let wood = evidence.probability(candidate.score);
+            Some((*candidate, wood))
+        });
+        let mut found: Vec<(Candidate, f64)> = of_lines.chain(of_depth).collect();
+        found.sort_by(|a, b| b.1.total_cmp(&a.1));
+        let places: Vec<Place> = found
+            .iter()
+            .map(|(candidate, wood)| Place {
+                offset: candidate.foot - self.apple.center,
+                wood: *wood,
+            })
+            .collect();
+        let ranked = nearest_first(&places, self.apple.radius);
+        ranked
+            .into_iter()
+            .map(|(k, nearest)| WoodCandidate {
+                candidate: Candidate {
+                    score: nearest,
+                    ..found[k].0
+                },
+                wood: found[k].1,
+                nearest,
+            })
+            .collect()
+    }
+
+    /// Width of a pixel at the apple's depth, metres.
+    fn pixel(&self) -> f64 {
+        self.projection.pixel_m(self.apple.center.z)
+    }
+
+    /// The part of the image about the apple.
+    fn band(&self) -> Option<Band<'_>> {
+        let (width, height) = (self.wood.width, self.wood.height);
+        let around = Sphere {
+            center: self.apple.center,
+            radius: (REACH_RADII + MARGIN_RADII) * self.apple.radius,
+        };
+        let window = window_of_sphere(&around, self.projection.camera, width, height);
+        let fitted = self.projection.project(&self.apple.center)?;
+        let radius = self.apple.radius / self.pixel();
+        let shift = self.registration(fitted, radius);
+        Some(Band {
+            wood: self.wood,
+            window,
+            center: (fitted.0 - shift.0, fitted.1 - shift.1),
+            radius,
+            shift,
+        })
+    }
+
+    /// By how many pixels depth lies beside colour at this apple: the fitted centre less the middle of the box; nothing
+    /// where the box cannot tell.
+    fn registration(&self, fitted: (f64, f64), radius: f64) -> (f64, f64) {
+        let b = self.bounds;
+        let (width, height) = (b.x_max - b.x_min, b.y_max - b.y_min);
+        let whole = b.x_min > 0.0
+            && b.y_min > 0.0
+            && b.x_max < self.wood.width as f64
+            && b.y_max < self.wood.height as f64
+            && width < MOST_ASPECT * height
+            && height < MOST_ASPECT * width;
+        // Edges are counted from the image's corner, pixels by their centres.
+        let middle = (
+            0.5 * (b.x_min + b.x_max) - 0.5,
+            0.5 * (b.y_min + b.y_max) - 0.5,
+        );
+        let shift = (fitted.0 - middle.0, fitted.1 - middle.1);
+        if whole && shift.0.hypot(shift.1) < MOST_SHIFT_RADII * radius {
+            shift
+        } else {
+            (0.0, 0.0)
+        }
+    }
+
+    /// Where the axis of a candidate lies in the colour image.
+    fn image_line(&self, band: &Band<'_>, candidate: &Candidate) -> Option<ImageLine> {
+        let step = candidate.tangent.into_inner() * (0.5 * self.apple.radius);
+        let point = self.projection.project(&candidate.foot)?;
+        let point = (point.0 - band.shift.0, point.1 - band.shift.1);
+        let a = self.projection.project(&(candidate.foot - step))?;
+        let b = self.projection.project(&(candidate.foot + step))?;
+        let half_width = candidate.axis.radius / self.projection.pixel_m(candidate.foot.z);
+        ImageLine::new(point, (b.0 - a.0, b.1 - a.1), half_width)
+    }
+
+    /// The line of the image in space; `None` where it cannot be a branch of this apple.
+    fn candidate(&self, lifted: &Lifted, evidence: &Evidence) -> Option<(Candidate, f64)> {
+        let center = self.apple.center;
+        let axis = BranchAxis::straight(&lifted.axis, &center, lifted.radius)?;
+        let foot = lifted.foot;
+        let distance = (foot - center).norm();
+        if !(distance < REACH_RADII * self.apple.radius && distance > 0.0) {
+            return None;
+        }
+        let candidate = Candidate {
+            axis,
+            foot,
+            tangent: lifted.axis.direction,
+            distance,
+            support: AxisSupport {
+                visible: evidence.length * self.pixel(),
+                pixels: lifted.readings,
+                ..AxisSupport::default()
+            },
+            score: 0.0,
+            foot_sd: lifted.depth_sd,
+            rms: lifted.rms,
+        };
+        Some((candidate, evidence.probability(0.0)))
+    }
+
+    /// The point at a depth in front of a pixel.
+    fn point_at(&self, pixel: (f64, f64), z: f64) -> Option<Point3<f64>> {
+        let (x, y) = self.projection.ray(pixel.0, pixel.1)?;
+        Some(Point3::new(x * z, y * z, z))
+    }
+}

@@ -38,6 +38,10 @@ const READINGS_RADII: f64 = 1.0;
 /// of the apple.
 const FAR_RADII: f64 = 4.0;
 
+/// Share that is taken of the depth of wood behind the apple's centre where depth is not to be trusted: readings on thin
+/// wood are mixed with those of what is behind it.
+pub(crate) const DEPTH_SHARE: f64 = 0.3;
+
 /// Standard deviation of the depth of wood of which nothing is known but that it is near the apple, radii of the
 /// apple.
 const UNKNOWN_SD_RADII: f64 = 0.8;
@@ -61,6 +65,7 @@ impl Lifted {
         band: &Band<'_>,
         line: &ImageLine,
         evidence: &Evidence,
+        trust: f64,
     ) -> Option<Self> {
         let apple = &search.apple;
         let (r, z0) = (apple.radius, apple.center.z);
@@ -80,10 +85,12 @@ impl Lifted {
             let behind = depths.map_or(0.0, |c| c.dot(&powers((s - evidence.middle) * pixel)));
             behind.clamp(-FAR_RADII * r, 2.0 * FAR_RADII * r)
         };
-        let behind = depth_at(evidence.foot);
-        if behind.abs() >= FAR_RADII * r {
+        if depth_at(evidence.foot).abs() >= FAR_RADII * r {
             return None;
         }
+        let share = DEPTH_SHARE + (1.0 - DEPTH_SHARE) * trust;
+        let depth_at = |s: f64| share * depth_at(s);
+        let behind = depth_at(evidence.foot);
         let radius = (line.half_width * pixel).clamp(
             search.config.branch_radius_min_m,
             search.config.branch_radius_max_m,
@@ -122,7 +129,7 @@ impl Lifted {
 }
 
 /// The reading of a pixel, where there is one.
-fn reading(depth: &DepthImage, u: f64, v: f64) -> Option<u16> {
+pub(crate) fn reading(depth: &DepthImage, u: f64, v: f64) -> Option<u16> {
     let inside = (0.0..depth.width as f64).contains(&u) && (0.0..depth.height as f64).contains(&v);
     let reading = inside.then(|| depth.readings[v as usize * depth.width + u as usize]);
     reading.filter(|z| *z > 0)

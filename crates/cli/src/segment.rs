@@ -154,7 +154,7 @@ fn segment(
 }
 
 /// The probability of wood, 0 to 255; 0 where unseen.
-pub(crate) fn wood_bytes(seen: &Segmentation) -> Vec<u8> {
+fn wood_bytes(seen: &Segmentation) -> Vec<u8> {
     let byte = |p: &f32| (p * 255.0).round() as u8;
     seen.role(Role::Wood).iter().map(byte).collect()
 }

@@ -40,13 +40,23 @@ pub(crate) fn open(
     tiles: TilingChoice,
     zooms: &[f64],
 ) -> Result<Box<dyn Segmenter>, SegmentError> {
+    let mut options = options(model, runtime, tiles);
+    options.zooms = zooms.to_vec();
+    options.open()
+}
+
+/// How `model` is run by this backend over these tiles.
+pub(crate) fn options(
+    model: &Model,
+    runtime: &RuntimeChoice,
+    tiles: TilingChoice,
+) -> SegmenterOptions {
     let mut options = SegmenterOptions::of_model(match model {
         Model::BuiltIn => None,
         Model::File(path) => Some(path.clone()),
     });
     (options.runtime, options.tiling) = (runtime.clone(), tiles);
-    options.zooms = zooms.to_vec();
-    options.open()
+    options
 }
 
 /// Says what was assumed about the model, and with -v why a runtime did not serve.

@@ -10,7 +10,7 @@ use pomona::{
 };
 use pomona_cloud::{Frame, GrayImage, PixelBox, read_boxes};
 use pomona_detect::Detector;
-use pomona_segment::Segmenter;
+use pomona_segment::CloseUps;
 use std::cell::OnceCell;
 use std::path::Path;
 use std::time::Instant;
@@ -23,7 +23,7 @@ pub(super) struct Session<'a> {
     /// Opened when the first frame needs it.
     detector: OnceCell<Box<dyn Detector>>,
     /// The same.
-    segmenter: OnceCell<Box<dyn Segmenter>>,
+    segmenter: OnceCell<CloseUps>,
     arguments: &'a PickArguments,
 }
 
@@ -152,7 +152,7 @@ impl<'a> Session<'a> {
         if let Some(detected) = detected {
             boxes = detected.boxes.iter().map(|b| &b.bounds).collect();
         }
-        wood::about(&**segmenter, &frame.color, &boxes).map(Some)
+        wood::about(segmenter, &frame.color, &boxes).map(Some)
     }
 
     /// The detector that the command line asks for, the same for all frames.

@@ -1,17 +1,13 @@
 //! What is wood about the apples of a frame.
 
 use crate::detector::{BUILT_IN, Model, parse_model};
-use crate::segment::wood_bytes;
-use crate::segmenter::{open as open_segmenter, say};
+use crate::segmenter::{options, say};
 use crate::terminal::Terminal;
 use pomona_cloud::{ColorImage, GrayImage, PixelBox, PixelWindow};
-use pomona_segment::{RuntimeChoice, Segmenter, TilingChoice};
+use pomona_segment::{CloseUps, RuntimeChoice, TilingChoice};
 
 /// The word for no segmenter.
 const NONE: &str = "none";
-
-/// Scales at which a frame is looked at: at its own resolution for what things belong to, enlarged for thin twigs.
-const ZOOMS: [f64; 2] = [1.0, 2.0];
 
 /// How far about an apple wood is told, half sides of its box: beyond the reach of the search for branches.
 const REACH: f64 = 3.6;
@@ -39,15 +35,15 @@ pub(super) fn open(
     model: &Model,
     runtime: &RuntimeChoice,
     terminal: Terminal,
-) -> anyhow::Result<Box<dyn Segmenter>> {
-    let segmenter = open_segmenter(model, runtime, TilingChoice::Automatic, &ZOOMS)?;
+) -> anyhow::Result<CloseUps> {
+    let segmenter = CloseUps::open(&options(model, runtime, TilingChoice::Automatic))?;
     say(&segmenter.report(), terminal);
     Ok(segmenter)
 }
 
 /// The probability of wood about the boxes; 0 elsewhere.
 pub(super) fn about(
-    segmenter: &dyn Segmenter,
+    segmenter: &CloseUps,
     image: &ColorImage,
     boxes: &[&PixelBox],
 ) -> anyhow::Result<GrayImage> {
@@ -68,14 +64,5 @@ pub(super) fn about(
         })
         .filter(|window| !window.is_empty())
         .collect();
-    let values = if windows.is_empty() {
-        vec![0; width * height]
-    } else {
-        wood_bytes(&segmenter.segment_windows(image, &windows)?)
-    };
-    Ok(GrayImage {
-        width,
-        height,
-        values,
-    })
+    Ok(segmenter.wood(image, &windows)?)
 }

@@ -60,8 +60,10 @@ const ODDS_CONTRAST: f64 = 16.0;
 /// … in front of the apple, where hardly any wood is and stalk and calyx are, …
 const ODDS_IN_FRONT: f64 = -1.0;
 
-/// … where depth is to be trusted for each unit of the score of an axis that depth has found, …
+/// … where depth is to be trusted for each unit by which the score of an axis that depth has found exceeds a least one,
+/// …
 const ODDS_DEPTH_SCORE: f64 = 6.0;
+const LEAST_DEPTH_SCORE: f64 = 0.5;
 
 /// … and there for what depth has not found.
 const ODDS_NOT_IN_DEPTH: f64 = -12.0;
@@ -78,7 +80,9 @@ impl Evidence {
         } else {
             0.0
         };
-        let by_depth = depth_score.map_or(ODDS_NOT_IN_DEPTH, |score| ODDS_DEPTH_SCORE * score);
+        let by_depth = depth_score.map_or(ODDS_NOT_IN_DEPTH, |score| {
+            ODDS_DEPTH_SCORE * (score - LEAST_DEPTH_SCORE)
+        });
         let odds = ODDS + ODDS_CONTRAST * self.contrast + in_front + trust * by_depth;
         1.0 / (1.0 + (-odds).exp())
     }

@@ -61,7 +61,7 @@ impl CloseUps {
             .map(|window| {
                 let around = about(window, width, height);
                 let seen = self.close.segment(&cut(image, around))?;
-                Ok((around, seen.role(Role::Wood).to_vec()))
+                Ok((around, seen.role(Role::Wood)))
             })
             .collect::<Result<_, SegmentError>>()?;
         let mut sums = vec![(0.0f32, 0u16); width * height];

@@ -140,12 +140,13 @@ impl<'a> Session<'a> {
         let SegmenterChoice::Model(model) = &self.arguments.segmenter else {
             return Ok(None);
         };
-        let segmenter = match self.segmenter.get() {
-            Some(segmenter) => segmenter,
-            None => {
-                let opened = wood::open(model, self.arguments.detector.runtime(), terminal)?;
-                self.segmenter.get_or_init(|| opened)
-            }
+        if self.segmenter.get().is_none() {
+            let opened = wood::open(model, self.arguments.detector.runtime(), terminal)?;
+            // It was empty.
+            let _ = self.segmenter.set(opened);
+        }
+        let Some(segmenter) = self.segmenter.get() else {
+            return Ok(None);
         };
         let frame = frame.frame();
         let mut boxes: Vec<&PixelBox> = frame.boxes.iter().flatten().collect();

@@ -15,30 +15,24 @@ mod depth;
 mod evidence;
 mod line;
 mod nearest;
+mod view;
 
 use super::apple::SeenApple;
 use super::axis::BranchAxis;
 use super::axis_fit::AxisSupport;
 use super::branch::Candidate;
 use super::confidence::without_candidate;
-use crate::config::RobustConfig;
-use crate::optics::{Projection, window_of_sphere};
+use crate::optics::window_of_sphere;
 use crate::outcome::Status;
 use crossings::Crossings;
 use depth::Lifted;
 use evidence::{Band, Evidence};
 use line::{ImageLine, image_lines};
-use nalgebra::Point3;
 use nearest::{Place, nearest_first};
-use pomona_cloud::{DepthImage, GrayImage, PixelBox};
 use pomona_geometry::Sphere;
 use rand_chacha::ChaCha8Rng;
-
-/// Distance from the apple's centre within which wood is looked for, radii of the apple.
-const REACH_RADII: f64 = 3.0;
-
-/// Beyond that the image is looked at for what goes on there, radii of the apple.
-const MARGIN_RADII: f64 = 0.4;
+pub(crate) use view::WoodSearch;
+use view::{MARGIN_RADII, REACH_RADII};
 
 /// Ratio of a box's sides from which it is not that of a whole apple.
 const MOST_ASPECT: f64 = 1.5;
@@ -54,20 +48,6 @@ const SURE_WOOD: f64 = 0.5;
 /// have 0.92 and more about nearly every apple, the labelled time-of-flight frames 0.5 in the median.
 const UNTRUSTED_SHARE: f64 = 0.82;
 const TRUSTED_SHARE: f64 = 0.93;
-
-/// Everything that the search for wood reads.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct WoodSearch<'a> {
-    pub(crate) wood: &'a GrayImage,
-    pub(crate) depth: &'a DepthImage,
-    pub(crate) projection: &'a Projection<'a>,
-    pub(crate) apple: Sphere,
-    /// The apple's box, drawn or detected in the colour image.
-    pub(crate) bounds: &'a PixelBox,
-    /// Standard deviation of a reading at the apple's depth, metres.
-    pub(crate) sigma: f64,
-    pub(crate) config: &'a RobustConfig,
-}
 
 /// A branch seen in colour.
 #[derive(Clone, Copy, Debug)]
@@ -160,11 +140,6 @@ impl WoodSearch<'_> {
         ((share - UNTRUSTED_SHARE) / (TRUSTED_SHARE - UNTRUSTED_SHARE)).clamp(0.0, 1.0)
     }
 
-    /// Width of a pixel at the apple's depth, metres.
-    fn pixel(&self) -> f64 {
-        self.projection.pixel_m(self.apple.center.z)
-    }
-
     /// The part of the image about the apple.
     fn band(&self) -> Option<Band<'_>> {
         let (width, height) = (self.wood.width, self.wood.height);
@@ -249,11 +224,5 @@ impl WoodSearch<'_> {
             rms: lifted.rms,
         };
         Some((candidate, evidence.probability(trust, None)))
-    }
-
-    /// The point at a depth in front of a pixel.
-    fn point_at(&self, pixel: (f64, f64), z: f64) -> Option<Point3<f64>> {
-        let (x, y) = self.projection.ray(pixel.0, pixel.1)?;
-        Some(Point3::new(x * z, y * z, z))
     }
 }

@@ -1,8 +1,8 @@
 //! From a line of the image to an axis in space.
 
-use super::WoodSearch;
 use super::evidence::{Band, Evidence, IN_FRONT_RADII};
 use super::line::ImageLine;
+use super::view::WoodSearch;
 use crate::robust::axis::{Observation, Parabola, powers};
 use nalgebra::Point3;
 use pomona_cloud::DepthImage;

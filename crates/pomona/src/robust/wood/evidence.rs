@@ -1,7 +1,7 @@
 //! By how much a line of the image stands out as wood from what lies beside it.
 
 use super::line::ImageLine;
-use super::{MARGIN_RADII, REACH_RADII};
+use super::view::{MARGIN_RADII, REACH_RADII};
 use pomona_cloud::{GrayImage, PixelWindow};
 
 /// The image about an apple. Pixels.

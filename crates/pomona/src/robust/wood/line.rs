@@ -1,7 +1,7 @@
 //! Straight lines of the image through crossings with wood, found by the RANSAC engine.
 
-use super::REACH_RADII;
 use super::crossings::Crossings;
+use super::view::REACH_RADII;
 use pomona_ransac::{
     Candidates, Constraint, Estimator, FixedCount, LeastSquares, Local, PerDatum, Quadratic,
     Ransac, RansacError, Report, Sequential,

@@ -10,10 +10,7 @@ fn run(methods: &[Method], noise: CalibrationNoise, suite: &str, count: usize) -
     let pickers: Vec<Picker> = methods
         .iter()
         .map(|&method| {
-            let config = Config {
-                method,
-                ..Config::default()
-            };
+            let config = Config::default().with(|c| c.method = method);
             Picker::new(config).expect("the default settings make sense")
         })
         .collect();

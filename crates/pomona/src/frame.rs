@@ -153,14 +153,9 @@ mod tests {
             height,
             values: vec![0; width * height],
         };
-        let checked = |wood| {
-            CheckedFrame::new(&frame)
-                .unwrap()
-                .with_wood(wood)
-                .map(|_| ())
-        };
-        assert!(checked(&mask(width)).is_ok());
-        let error = checked(&mask(width + 1)).unwrap_err().to_string();
+        let check = |mask: &GrayImage| CheckedFrame::new(&frame)?.with_wood(mask).map(|_| ());
+        assert!(check(&mask(width)).is_ok());
+        let error = check(&mask(width + 1)).unwrap_err().to_string();
         assert!(
             error.contains(&frame.id) && error.contains(&(width + 1).to_string()),
             "{error}"

@@ -42,10 +42,7 @@ fn two_sights_of_one_tree_are_aligned_and_radii_compared() {
         .truth
         .apples
         .iter()
-        .map(|apple| Caliper {
-            box_name: apple.bounds.name.clone(),
-            diameter: 2.0 * apple.radius,
-        })
+        .map(|apple| Caliper::new(&apple.bounds.name, 2.0 * apple.radius))
         .collect();
     let report = measure_calipers(&[first, second], &calipers, &[&method], 0).unwrap();
     let result = &report.results[0];

@@ -2,8 +2,9 @@
 
 use super::drawn;
 use crate::binary::{pomona, tree};
+use crate::schema::Schema;
 use pomona_cloud::GrayImage;
-use serde_json::Value;
+use serde_json::{Value, json};
 use std::fs;
 use tempfile::TempDir;
 
@@ -71,6 +72,10 @@ fn written(dir: &TempDir) -> Value {
     serde_json::from_slice(&fs::read(dir.path().join("out/segmentation.json")).unwrap()).unwrap()
 }
 
+fn schema() -> Schema {
+    Schema::read("segmentation-evaluation.schema.json")
+}
+
 fn files(dir: &TempDir) -> Vec<String> {
     let paths = tree(&dir.path().join("out"));
     paths.iter().map(|p| p.display().to_string()).collect()
@@ -114,6 +119,26 @@ fn two_programs_and_a_second_person_in_one_run() {
         ]
     );
     let evaluation = written(&dir);
+    let schema = schema();
+    schema.accepts(&evaluation);
+    for parent in [
+        "",
+        "/strokes",
+        "/agreement",
+        "/results/0",
+        "/results/0/recall_wide",
+        "/differences/0",
+    ] {
+        schema.refuses(&evaluation, &format!("{parent}/extra"), Some(json!(1)));
+    }
+    schema.refuses(
+        &evaluation,
+        "/schema",
+        Some(json!("pomona.segmentation-evaluation/2")),
+    );
+    schema.refuses(&evaluation, "/tolerance_px", Some(json!(-1)));
+    schema.refuses(&evaluation, "/agreement/recall/share", Some(json!(1.5)));
+    schema.refuses(&evaluation, "/results/0/curve/0/precision", None);
     assert_eq!(evaluation["schema"], "pomona.segmentation-evaluation/1");
     assert_eq!(evaluation["strokes"]["name"], "strokes");
     assert_eq!(evaluation["strokes"]["photographs"], 2);
@@ -165,6 +190,7 @@ fn a_later_run_replaces_the_earlier_and_json_is_the_file() {
     );
     let evaluation = written(&dir);
     assert_eq!(evaluation, run.json());
+    schema().accepts(&evaluation);
     assert_eq!(evaluation["strokes"]["images"], 1);
     assert!(evaluation["results"][0].get("recall_thin").is_none());
     assert!(evaluation.get("agreement").is_none());
@@ -215,6 +241,9 @@ fn the_maps_that_segment_writes_are_worth_what_the_model_is() {
     pomona(&[&["segment", &*images, "--out", &*maps][..], &embedded].concat()).succeeded();
     let more = [&["--segmenter", "built-in", "--json"][..], &embedded].concat();
     let evaluation = pomona(&line(&dir, &["maps"], &more)).succeeded().json();
+    let schema = schema();
+    schema.accepts(&evaluation);
+    schema.refuses(&evaluation, "/results/0/segmenter/extra", Some(json!(1)));
     let [model, maps] = [0, 1].map(|i| &evaluation["results"][i]);
     assert_eq!(model["name"], "built-in");
     assert_eq!(maps["name"], "maps");

@@ -104,12 +104,8 @@ pub(super) fn run(
         }
         sources.push(SegmentationSource::Masks { name, read });
     }
-    let options = SegmentationOptions {
-        threshold: own.wood_threshold,
-        tolerance_px: own.tolerance_px,
-        seed,
-        apple_radii: own.apple_radii,
-    };
+    let mut options = SegmentationOptions::new(own.wood_threshold, own.tolerance_px, seed);
+    options.apple_radii = own.apple_radii;
     let bar = progress::bar(images.len());
     let evaluation =
         evaluate_segmentation(&stem(&file), &images, &second, &sources, &options, &|| {
@@ -219,14 +215,14 @@ fn sheets(
                 .iter()
                 .filter(|image| image.strokes.name == worst.image)
             {
-                pictures.push(ContactSheetImage {
-                    image: marked(image, source, evaluation)?,
-                    marks: Vec::new(),
-                    caption: format!(
+                pictures.push(ContactSheetImage::new(
+                    marked(image, source, evaluation)?,
+                    Vec::new(),
+                    format!(
                         "-{:.0} +{} {}",
                         worst.missed_px, worst.false_pixels, worst.image
                     ),
-                });
+                ));
             }
         }
         names.push(worst_sheet::write(&pictures, number + 1, output)?);

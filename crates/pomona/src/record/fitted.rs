@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[cfg_attr(test, schemars(deny_unknown_fields))]
+#[non_exhaustive]
 pub struct AppleRecord {
     /// Centre: the paper's O.
     pub center: [f64; 3],
@@ -36,6 +37,7 @@ pub struct AppleRecord {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[cfg_attr(test, schemars(deny_unknown_fields))]
+#[non_exhaustive]
 pub struct BranchRecord {
     /// A point on the line.
     pub point: [f64; 3],
@@ -53,6 +55,7 @@ pub struct BranchRecord {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[cfg_attr(test, schemars(deny_unknown_fields))]
+#[non_exhaustive]
 pub struct CandidateRecord {
     /// Point of its axis nearest to the apple's centre.
     pub foot: [f64; 3],

@@ -33,14 +33,6 @@ pub enum EvaluateError {
     /// A file of strokes could not be read.
     #[error(transparent)]
     Labels(#[from] pomona_labels::LabelsError),
-    /// A segmenter could not work on the colour image of a frame.
-    #[error("{frame}: {source}")]
-    Segmentation {
-        /// The frame.
-        frame: String,
-        /// What it said.
-        source: Box<pomona_segment::SegmentError>,
-    },
     /// A method could not work on a frame at all.
     #[error(transparent)]
     Pick(#[from] pomona::PickError),

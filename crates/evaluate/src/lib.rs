@@ -6,7 +6,7 @@
 //!
 //! // The first two of the paper's fifteen laboratory orientations, rendered in memory.
 //! let subjects = Subject::named("lab15", Some(2))?;
-//! let picker = Picker::new(Config { method: Method::Paper, ..Config::default() })?;
+//! let picker = Picker::new(Config::default().with(|c| c.method = Method::Paper))?;
 //!
 //! let evaluation = evaluate(&subjects, &[&picker], 0, &|| {})?;
 //!

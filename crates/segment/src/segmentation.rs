@@ -93,6 +93,16 @@ impl Segmentation {
         }
     }
 
+    /// Moves the probabilities by `share` of the way to those of `other`, which is of the same image and classes; what
+    /// either has not seen is unseen.
+    pub(crate) fn mix(&mut self, other: &Self, share: f32) {
+        for (plane, others) in self.planes.iter_mut().zip(&other.planes) {
+            for (p, q) in plane.iter_mut().zip(others) {
+                *p += share * (q - *p);
+            }
+        }
+    }
+
     /// The same, seen within `windows` only.
     #[must_use]
     pub fn within(mut self, windows: &[PixelWindow]) -> Self {

@@ -7,10 +7,7 @@
 //! use pomona_view::{AppleMark, Overlay};
 //!
 //! let image = ColorImage { width: 640, height: 480, pixels: vec![[90, 120, 80]; 640 * 480] };
-//! let camera = Camera {
-//!     width: 640, height: 480, fx: 600.0, fy: 600.0, cx: 319.5, cy: 239.5,
-//!     depth_scale: 0.001, frame_id: "camera_color_optical_frame".into(), distortion: None,
-//! };
+//! let camera = Camera::new([640, 480], [600.0, 600.0], [319.5, 239.5]);
 //!
 //! let name = String::from("apple");
 //! let bounds = PixelBox { name, x_min: 290.0, y_min: 210.0, x_max: 350.0, y_max: 270.0, score: 1.0 };

@@ -37,12 +37,11 @@ impl Detector for Middle {
     fn report(&self) -> DetectorReport {
         let mut runtime = RuntimeReport::new("embedded", "1.2.3");
         runtime.fallback_reason = Some("nothing else found".to_owned());
-        DetectorReport {
-            name: "middle".to_owned(),
-            family: Some("own".to_owned()),
-            runtime: Some(runtime),
-            notes: vec!["the input's size is open".to_owned()],
-        }
+        let mut report = DetectorReport::new("middle");
+        report.family = Some("own".to_owned());
+        report.runtime = Some(runtime);
+        report.notes = vec!["the input's size is open".to_owned()];
+        report
     }
 }
 

@@ -4,10 +4,10 @@ use super::arguments::EvaluateArguments;
 use super::real_text;
 use super::results::{REPORT, json};
 use crate::detector::Model;
-use crate::segmenter::{open, say};
 use crate::terminal::Terminal;
+use crate::wood::{self, SegmenterChoice};
 use anyhow::{anyhow, bail};
-use pomona_cloud::GrayImage;
+use pomona_cloud::{GrayImage, PixelBox};
 use pomona_evaluate::{
     AppleWoodTable, PickMethod, REAL_SCHEMA, RealFrame, RealOptions, measure_real,
     read_real_frames, real_csv, real_page,
@@ -64,15 +64,14 @@ fn add_wood(
     }
     let model = match &*arguments.segmentation.segmenters {
         [] => &Model::BuiltIn,
-        [model] if model.is_none() => return Ok(None),
-        [model] => model,
+        [SegmenterChoice::None] => return Ok(None),
+        [SegmenterChoice::Model(model)] => model,
         _ => bail!("--segmenter is given twice; with --real give it once"),
     };
-    let settings = arguments.detection.settings();
-    let segmenter = open(model, settings.runtime(), settings.tiles())?;
-    say(&segmenter.report(), terminal);
+    let segmenter = wood::open(model, arguments.detection.settings().runtime(), terminal)?;
     for frame in frames {
-        frame.segment(&*segmenter)?;
+        let boxes: Vec<&PixelBox> = frame.boxes().iter().collect();
+        frame.wood = Some(wood::about(&segmenter, &frame.frame.color, &boxes)?);
     }
     Ok(Some(segmenter.report().name))
 }

@@ -14,7 +14,7 @@ pub(super) struct RealArguments {
     /// in each frame's folder).
     #[arg(long, group = STROKED, requires = "subjects", conflicts_with_all = ["calipers", "detection", "count", "robot"], help_heading = HEADING)]
     pub(super) real: bool,
-    /// Which apples' wood a person sees: CSV with the columns frame, box_name and wood (seen, doubtful or none). Default:
+    /// Which apples' wood a person sees: CSV with the columns frame, `box_name` and wood (seen, doubtful or none). Default:
     /// it is seen where wood is drawn near the box (--apple-radii).
     #[arg(long, value_name = "FILE", requires = "real", conflicts_with = "apple_radii", help_heading = HEADING)]
     pub(super) apples: Option<PathBuf>,

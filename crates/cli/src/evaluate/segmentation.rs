@@ -1,11 +1,12 @@
 use super::results::{REPORT, Results, json};
 use super::segmentation_text;
 use super::worst_sheet::{self, is_sheet, stem};
-use crate::detector::{BUILT_IN, DetectorSettings, Model, parse_model, parse_share};
+use crate::detector::{BUILT_IN, DetectorSettings, Model, parse_share};
 use crate::output_folder::Staging;
 use crate::progress;
 use crate::segmenter::{open, say};
 use crate::terminal::Terminal;
+use crate::wood::{SegmenterChoice, parse_segmenter};
 use anyhow::{anyhow, bail};
 use clap::Args;
 use pomona_cloud::{ColorImage, GrayImage};
@@ -43,8 +44,8 @@ pub(super) struct SegmentationArguments {
     /// A segmentation model to measure (ONNX), or `built-in`; may be repeated. Default: built-in, unless --masks are
     /// given. With --real the model that tells the methods where wood is, or `none`; default: built-in, unless
     /// --wood-masks are given.
-    #[arg(long = "segmenter", value_name = "FILE", value_parser = parse_model, requires = STROKED, help_heading = HEADING)]
-    pub(super) segmenters: Vec<Model>,
+    #[arg(long = "segmenter", value_name = "FILE", value_parser = parse_segmenter, requires = STROKED, help_heading = HEADING)]
+    pub(super) segmenters: Vec<SegmenterChoice>,
     /// Masks of another program: a folder with NAME.wood.png (or NAME.png) for each image, grey, 255 where it is
     /// sure of wood; may be repeated.
     #[arg(long, value_name = "FOLDER", requires = "segmentation", help_heading = HEADING)]
@@ -59,6 +60,9 @@ pub(super) struct SegmentationArguments {
     /// --real and without --apples: the wood of an apple is seen where wood is drawn within N radii (default 3).
     #[arg(long, value_name = "N", value_parser = parse_tolerance, requires = STROKED, help_heading = HEADING)]
     pub(super) apple_radii: Option<f64>,
+    /// Scales at which models look at an image, separated by commas; the result is the mean.
+    #[arg(long, value_name = "ZOOM", value_delimiter = ',', default_value = "1", requires = "segmentation", help_heading = HEADING)]
+    zoom: Vec<f64>,
 }
 
 fn parse_tolerance(text: &str) -> Result<f64, String> {
@@ -105,12 +109,8 @@ pub(super) fn run(
         }
         sources.push(SegmentationSource::Masks { name, read });
     }
-    let options = SegmentationOptions {
-        threshold: own.wood_threshold,
-        tolerance_px: own.tolerance_px,
-        seed,
-        apple_radii: own.apple_radii,
-    };
+    let mut options = SegmentationOptions::new(own.wood_threshold, own.tolerance_px, seed);
+    options.apple_radii = own.apple_radii;
     let bar = progress::bar(images.len());
     let evaluation =
         evaluate_segmentation(&stem(&file), &images, &second, &sources, &options, &|| {
@@ -136,24 +136,24 @@ impl SegmentationArguments {
         terminal: Terminal,
     ) -> anyhow::Result<Vec<(String, Box<dyn Segmenter>)>> {
         let models = match (&*self.segmenters, &*self.masks) {
-            ([], []) => &[Model::BuiltIn][..],
+            ([], []) => &[SegmenterChoice::Model(Model::BuiltIn)][..],
             (models, _) => models,
         };
         let mut opened: Vec<(String, Box<dyn Segmenter>)> = Vec::new();
-        for model in models {
+        for choice in models {
+            let SegmenterChoice::Model(model) = choice else {
+                bail!("--segmenter none: give a model to measure, or masks by --masks");
+            };
             let name = match model {
                 Model::BuiltIn => BUILT_IN.to_owned(),
                 Model::File(path) => stem(path),
             };
-            if model.is_none() {
-                bail!("--segmenter none: give a model to measure, or masks by --masks");
-            }
             if opened.iter().any(|(other, _)| *other == name) {
                 bail!(
                     "--segmenter: `{name}` is given twice; give each once, and files names of their own"
                 );
             }
-            let segmenter = open(model, settings.runtime(), settings.tiles())?;
+            let segmenter = open(model, settings.runtime(), settings.tiles(), &self.zoom)?;
             say(&segmenter.report(), terminal);
             opened.push((name, segmenter));
         }
@@ -223,14 +223,14 @@ fn sheets(
                 .iter()
                 .filter(|image| image.strokes.name == worst.image)
             {
-                pictures.push(ContactSheetImage {
-                    image: marked(image, source, evaluation)?,
-                    marks: Vec::new(),
-                    caption: format!(
+                pictures.push(ContactSheetImage::new(
+                    marked(image, source, evaluation)?,
+                    Vec::new(),
+                    format!(
                         "-{:.0} +{} {}",
                         worst.missed_px, worst.false_pixels, worst.image
                     ),
-                });
+                ));
             }
         }
         names.push(worst_sheet::write(&pictures, number + 1, output)?);

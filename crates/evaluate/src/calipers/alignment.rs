@@ -19,6 +19,7 @@ const MOST_TRIPLES: usize = 20_000;
 /// Apples are joined by the names of their boxes. It is a measure of consistency, not of accuracy: an error that
 /// both frames share does not show.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Alignment {
     /// One frame.
     pub first: String,
@@ -41,6 +42,7 @@ pub struct Alignment {
 
 /// One apple of two frames.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct AlignedApple {
     /// Name of its box.
     pub box_name: String,

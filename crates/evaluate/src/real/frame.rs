@@ -1,7 +1,6 @@
 use crate::error::EvaluateError;
 use pomona_cloud::{Frame, GrayImage, PixelBox};
 use pomona_labels::{ImageStrokes, LabelsError, Stroke, StrokeClass, read_strokes};
-use pomona_segment::{Role, Segmenter};
 use std::path::{Path, PathBuf};
 
 /// The strokes of a frame, in its folder.
@@ -27,23 +26,6 @@ impl RealFrame {
             strokes,
             wood: None,
         }
-    }
-
-    /// Takes the probability of wood from a segmenter.
-    ///
-    /// # Errors
-    ///
-    /// [`EvaluateError::Segmentation`] where the segmenter cannot work on the colour image.
-    pub fn segment(&mut self, segmenter: &dyn Segmenter) -> Result<(), EvaluateError> {
-        let seen =
-            segmenter
-                .segment(&self.frame.color)
-                .map_err(|source| EvaluateError::Segmentation {
-                    frame: self.frame.id.clone(),
-                    source: Box::new(source),
-                })?;
-        self.wood = Some(seen.mask(Role::Wood));
-        Ok(())
     }
 
     /// Its boxes.

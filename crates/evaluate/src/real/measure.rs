@@ -82,15 +82,13 @@ fn answer(method: &dyn PickMethod, frame: &RealFrame, seed: u64) -> Result<Frame
 }
 
 fn wood_seen(frame: &RealFrame, bounds: &PixelBox, options: &RealOptions) -> WoodSeen {
-    match &options.apples {
-        Some(table) => table.wood(&frame.frame.id, &bounds.name),
-        None => {
-            let reach = options.apple_radii * radius_px(bounds);
-            match distance_from_box(frame, bounds) {
-                Some(distance) if distance <= reach => WoodSeen::Seen,
-                _ => WoodSeen::None,
-            }
-        }
+    if let Some(table) = &options.apples {
+        return table.wood(&frame.frame.id, &bounds.name);
+    }
+    let reach = options.apple_radii * radius_px(bounds);
+    match distance_from_box(frame, bounds) {
+        Some(distance) if distance <= reach => WoodSeen::Seen,
+        _ => WoodSeen::None,
     }
 }
 

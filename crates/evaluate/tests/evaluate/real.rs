@@ -89,7 +89,7 @@ impl Known {
 }
 
 fn measured(scene: &Scene, options: &RealOptions) -> RealReport {
-    let picker = || Picker::new(config(Method::Robust)).unwrap();
+    let picker = || Picker::new(Config::default().with(|c| c.method = Method::Robust)).unwrap();
     let method = |mirrored| Known {
         truth: scene.truth.clone(),
         picker: picker(),
@@ -101,12 +101,6 @@ fn measured(scene: &Scene, options: &RealOptions) -> RealReport {
         options,
     )
     .unwrap()
-}
-
-fn config(method: Method) -> Config {
-    let mut config = Config::default();
-    config.method = method;
-    config
 }
 
 #[test]

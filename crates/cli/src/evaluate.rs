@@ -9,6 +9,7 @@ mod detection_text;
 mod methods;
 mod real;
 mod real_arguments;
+mod real_pictures;
 mod real_text;
 mod results;
 mod robot;

@@ -70,10 +70,10 @@ pub use error::EvaluateError;
 pub use evaluation::{Evaluation, SCHEMA};
 pub use method::PickMethod;
 pub use real::{
-    AppleWood, AppleWoodTable, ConfidenceShare, REAL_SCHEMA, RealFigures, RealFrame,
-    RealFrameFigures, RealFrameSummary, RealOptions, RealReliability, RealReport, RealResult,
-    RealRow, SeenFigures, UnseenFigures, Verdict, WoodSeen, measure_real, read_real_frames,
-    real_csv,
+    AppleWood, AppleWoodTable, ConfidenceShare, FrameAgreement, PerturbedAgreement, REAL_SCHEMA,
+    RealAgreement, RealFigures, RealFrame, RealFrameFigures, RealFrameSummary, RealOptions,
+    RealReliability, RealReport, RealResult, RealRow, SeenFigures, UnseenFigures, Verdict,
+    WoodSeen, measure_real, read_real_frames, real_csv,
 };
 pub use report::{caliper_page, real_page, report_page};
 pub use robot::{

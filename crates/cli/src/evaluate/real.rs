@@ -1,13 +1,15 @@
 //! Directions on real frames against strokes of wood drawn by eye.
 
 use super::arguments::EvaluateArguments;
+use super::real_pictures::{self, is_picture};
 use super::real_text;
 use super::results::{REPORT, json};
 use crate::detector::Model;
+use crate::progress;
 use crate::terminal::Terminal;
 use crate::wood::{self, SegmenterChoice};
 use anyhow::{anyhow, bail};
-use pomona_cloud::{GrayImage, PixelBox};
+use pomona_cloud::{ColorImage, GrayImage, PixelBox};
 use pomona_evaluate::{
     AppleWoodTable, PickMethod, REAL_SCHEMA, RealFrame, RealOptions, measure_real,
     read_real_frames, real_csv, real_page,
@@ -27,9 +29,9 @@ pub(super) fn run(
     let own = &arguments.real;
     let output = arguments
         .results
-        .claim(REAL, REAL_SCHEMA, |name| name == ROWS)?;
+        .claim(REAL, REAL_SCHEMA, |name| name == ROWS || is_picture(name))?;
     let mut options = RealOptions::default();
-    options.seed = arguments.seed;
+    (options.seed, options.repeats) = (arguments.seed, own.repeats);
     if let Some(path) = &own.apples {
         options.apples = Some(AppleWoodTable::read(path)?);
     }
@@ -39,11 +41,14 @@ pub(super) fn run(
     let folders: Vec<PathBuf> = arguments.subjects.iter().map(PathBuf::from).collect();
     let mut frames = read_real_frames(&folders, arguments.segmentation.strokes.as_deref())?;
     options.wood = add_wood(arguments, &mut frames, terminal)?;
-    let report = measure_real(&frames, methods, &options)?;
+    let bar = progress::bar(methods.len() * frames.len() * options.answers());
+    let report = measure_real(&frames, methods, &options, &|| bar.inc(1))?;
+    bar.finish_and_clear();
     let files = output.stage()?;
+    let pictures = real_pictures::write(&frames, &report, &files)?;
     files.write_text(REAL, &json(&report)?)?;
     files.write_text(ROWS, &real_csv(&report)?)?;
-    files.write_text(REPORT, &real_page(&report))?;
+    files.write_text(REPORT, &real_page(&report, &pictures))?;
     files.publish()?;
     arguments
         .results
@@ -70,8 +75,10 @@ fn add_wood(
     };
     let segmenter = wood::open(model, arguments.detection.settings().runtime(), terminal)?;
     for frame in frames {
-        let boxes: Vec<&PixelBox> = frame.boxes().iter().collect();
-        frame.wood = Some(wood::about(&segmenter, &frame.frame.color, &boxes)?);
+        let boxes: Vec<PixelBox> = frame.boxes().to_vec();
+        let boxes: Vec<&PixelBox> = boxes.iter().collect();
+        let tell = |image: &ColorImage| wood::about(&segmenter, image, &boxes);
+        frame.tell_wood(tell, arguments.real.repeats > 0)?;
     }
     Ok(Some(segmenter.report().name))
 }

@@ -22,4 +22,7 @@ pub(super) struct RealArguments {
     /// 255 where it is sure of wood.
     #[arg(long, value_name = "FOLDER", requires = "real", conflicts_with = "segmenters", help_heading = HEADING)]
     pub(super) wood_masks: Option<PathBuf>,
+    /// Number of perturbed copies of each frame whose answers are compared with the frame's own; 0 saves time.
+    #[arg(long, value_name = "N", default_value_t = 8, requires = "real", help_heading = HEADING)]
+    pub(super) repeats: usize,
 }

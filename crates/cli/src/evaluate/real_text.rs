@@ -1,6 +1,6 @@
 use super::text_table::{known, percent, table};
 use crate::terminal::Terminal;
-use pomona_evaluate::{RealFigures, RealReport, RealResult, UnseenFigures};
+use pomona_evaluate::{RealAgreement, RealFigures, RealReport, RealResult, UnseenFigures};
 use pomona_statistics::Proportion;
 
 /// Directions on real frames as tables of text.
@@ -56,7 +56,66 @@ pub(super) fn tables(report: &RealReport, terminal: Terminal) -> String {
             terminal,
         );
     }
+    let rows: Vec<Vec<String>> = report.results.iter().filter_map(between).collect();
+    if !rows.is_empty() {
+        let header = [
+            "method",
+            "pairs",
+            "answered in both %",
+            "<=20 deg % of those",
+            ">50 deg % of those",
+        ];
+        text += "\n";
+        text += &table(
+            "Directions of the same apples in two frames",
+            &header,
+            &rows,
+            1,
+            terminal,
+        );
+    }
+    let rows: Vec<Vec<String>> = report.results.iter().filter_map(perturbed).collect();
+    if !rows.is_empty() {
+        let header = [
+            "method",
+            "boxes of copies",
+            "flipped %",
+            "answered in both %",
+            "<=20 deg % of those",
+            ">50 deg % of those",
+        ];
+        text += "\n";
+        text += &table(
+            "Directions from perturbed copies of the frames",
+            &header,
+            &rows,
+            1,
+            terminal,
+        );
+    }
     text
+}
+
+fn between(result: &RealResult) -> Option<Vec<String>> {
+    let own = result.between_frames.as_ref()?;
+    let mut row = vec![result.method.clone(), own.answered_in_both.of.to_string()];
+    row.extend(agreement(own));
+    Some(row)
+}
+
+fn perturbed(result: &RealResult) -> Option<Vec<String>> {
+    let own = result.all.perturbed.as_ref()?;
+    let mut row = vec![
+        result.method.clone(),
+        own.flipped.of.to_string(),
+        percent(&own.flipped),
+    ];
+    row.extend(agreement(&own.directions));
+    Some(row)
+}
+
+fn agreement(of: &RealAgreement) -> [String; 3] {
+    [&of.answered_in_both, &of.within_20_deg, &of.beyond_50_deg].map(percent)
 }
 
 /// A row for each method over all frames, and where there are several for each of them.

@@ -8,6 +8,7 @@ const COLUMNS: &str = "give CSV with a header and the columns frame, box_name an
 
 /// Whether a person sees the wood nearest to an apple.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum WoodSeen {

@@ -12,6 +12,7 @@ const CONFIDENCE_BOUNDS: [f64; 5] = [0.0, 0.5, 0.7, 0.9, 1.0];
 const CONFIDENT: f64 = 0.5;
 
 impl RealFigures {
+    /// The figures of rows; those of copies are left out.
     pub(super) fn of<'a>(rows: impl Iterator<Item = &'a RealRow>) -> Self {
         let mut of_wood: BTreeMap<WoodSeen, Vec<&RealRow>> = BTreeMap::new();
         for row in rows {
@@ -25,6 +26,7 @@ impl RealFigures {
             none: UnseenFigures::of(&take(WoodSeen::None)),
             doubtful: UnseenFigures::of(&take(WoodSeen::Doubtful)),
             unlisted: UnseenFigures::of(&take(WoodSeen::Unlisted)),
+            perturbed: None,
         }
     }
 }

@@ -1,5 +1,6 @@
+use super::brightness::{BRIGHTNESS_SHARE, brightened};
 use crate::error::EvaluateError;
-use pomona_cloud::{Frame, GrayImage, PixelBox};
+use pomona_cloud::{ColorImage, Frame, GrayImage, PixelBox};
 use pomona_labels::{ImageStrokes, LabelsError, Stroke, StrokeClass, read_strokes};
 use std::path::{Path, PathBuf};
 
@@ -16,6 +17,10 @@ pub struct RealFrame {
     pub strokes: ImageStrokes,
     /// The probability of wood (× 255) of each pixel, of a segmenter or another program; `None` where methods get none.
     pub wood: Option<GrayImage>,
+    /// The same where the colour image is 15 % darker, for perturbed copies; `None`: as `wood`.
+    pub darker_wood: Option<GrayImage>,
+    /// The same where it is 15 % brighter.
+    pub brighter_wood: Option<GrayImage>,
 }
 
 impl RealFrame {
@@ -25,7 +30,29 @@ impl RealFrame {
             frame,
             strokes,
             wood: None,
+            darker_wood: None,
+            brighter_wood: None,
         }
+    }
+
+    /// Takes the probability of wood from what tells it for a colour image: for the frame's own, and with `copies` for
+    /// those of perturbed copies too.
+    ///
+    /// # Errors
+    ///
+    /// Those of `tell`.
+    pub fn tell_wood<E>(
+        &mut self,
+        tell: impl Fn(&ColorImage) -> Result<GrayImage, E>,
+        copies: bool,
+    ) -> Result<(), E> {
+        self.wood = Some(tell(&self.frame.color)?);
+        if copies {
+            let [darker, brighter] = [1.0 - BRIGHTNESS_SHARE, 1.0 + BRIGHTNESS_SHARE]
+                .map(|factor| tell(&brightened(&self.frame.color, factor)));
+            (self.darker_wood, self.brighter_wood) = (Some(darker?), Some(brighter?));
+        }
+        Ok(())
     }
 
     /// Its boxes.

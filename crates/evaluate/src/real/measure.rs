@@ -1,7 +1,10 @@
+use super::agreement::{Pair, between, repeated};
 use super::apple_wood::{AppleWoodTable, WoodSeen};
 use super::frame::RealFrame;
+use super::perturbation::{depth_noise, perturbed};
 use super::record::{
-    REAL_SCHEMA, RealFigures, RealFrameFigures, RealFrameSummary, RealReport, RealResult, RealRow,
+    FrameAgreement, PerturbedAgreement, REAL_SCHEMA, RealAgreement, RealFigures, RealFrameFigures,
+    RealFrameSummary, RealReport, RealResult, RealRow,
 };
 use super::verdict::Sight;
 use super::wood_near::{distance_from_box, radius_px};
@@ -27,8 +30,17 @@ pub struct RealOptions {
     pub apples: Option<AppleWoodTable>,
     /// How near that is, in radii of the box.
     pub apple_radii: f64,
+    /// Number of perturbed copies of each frame whose answers are compared with the frame's own.
+    pub repeats: usize,
     /// What the frames' probability of wood comes from, for the record.
     pub wood: Option<String>,
+}
+
+impl RealOptions {
+    /// Number of answers for each method and frame: the frame's and those of its copies.
+    pub fn answers(&self) -> usize {
+        1 + self.repeats
+    }
 }
 
 impl Default for RealOptions {
@@ -37,12 +49,15 @@ impl Default for RealOptions {
             seed: 0,
             apples: None,
             apple_radii: APPLE_RADII,
+            repeats: 0,
             wood: None,
         }
     }
 }
 
-/// Measures methods on real frames: whether their directions point at the wood that a person sees.
+/// Measures methods on real frames: whether their directions point at the wood that a person sees, and agree with those from
+/// other frames of the tree and from perturbed copies of the frame. `done` is called after each answered frame and copy, one
+/// of [`RealOptions::answers`] for each method and frame.
 ///
 /// # Errors
 ///
@@ -52,6 +67,7 @@ pub fn measure_real(
     frames: &[RealFrame],
     methods: &[&dyn PickMethod],
     options: &RealOptions,
+    done: &(dyn Fn() + Sync),
 ) -> Result<RealReport, EvaluateError> {
     if let Some(table) = &options.apples {
         table.check(frames)?;
@@ -59,9 +75,14 @@ pub fn measure_real(
     let results = methods.iter().map(|method| {
         let answers: Vec<FrameAnswer> = frames
             .par_iter()
-            .map(|frame| answer(*method, frame, options.seed))
+            .map(|frame| answer(*method, frame, options.seed).inspect(|_| done()))
             .collect::<Result<_, _>>()?;
-        Ok(result(method.name(), frames, &answers, options))
+        let copies: Vec<Vec<Pair>> = frames
+            .par_iter()
+            .zip(&answers)
+            .map(|(frame, own)| copies(*method, frame, own, options, done))
+            .collect::<Result<_, _>>()?;
+        Ok(result(method.name(), frames, &answers, &copies, options))
     });
     Ok(RealReport {
         schema: REAL_SCHEMA.to_owned(),
@@ -79,6 +100,28 @@ fn answer(method: &dyn PickMethod, frame: &RealFrame, seed: u64) -> Result<Frame
         checked = checked.with_wood(wood)?;
     }
     Ok(method.answer(&checked, seed)?.without_evidence())
+}
+
+/// The answers to each box of each copy of a frame beside the frame's `own`.
+fn copies(
+    method: &dyn PickMethod,
+    frame: &RealFrame,
+    own: &FrameAnswer,
+    options: &RealOptions,
+    done: &(dyn Fn() + Sync),
+) -> Result<Vec<Pair>, PickError> {
+    // A frame without three readings side by side has nothing to be perturbed.
+    let noise = depth_noise(&frame.frame.depth).unwrap_or_default();
+    let pairs: Vec<Vec<Pair>> = (0..options.repeats)
+        .into_par_iter()
+        .map(|copy| {
+            let copy = perturbed(frame, copy, options.seed, noise);
+            let answer = answer(method, &copy, options.seed)?;
+            done();
+            Ok(repeated(own, &answer))
+        })
+        .collect::<Result<_, PickError>>()?;
+    Ok(pairs.concat())
 }
 
 fn wood_seen(frame: &RealFrame, bounds: &PixelBox, options: &RealOptions) -> WoodSeen {
@@ -99,6 +142,8 @@ fn summary(frame: &RealFrame, options: &RealOptions) -> RealFrameSummary {
     }
     RealFrameSummary {
         frame: frame.frame.id.clone(),
+        depth_noise: depth_noise(&frame.frame.depth)
+            .map(|noise| noise * frame.frame.camera.depth_scale),
         wood_strokes: frame.wood_strokes().count(),
         boxes,
     }
@@ -108,11 +153,16 @@ fn result(
     method: &str,
     frames: &[RealFrame],
     answers: &[FrameAnswer],
+    copies: &[Vec<Pair>],
     options: &RealOptions,
 ) -> RealResult {
+    let figures = |rows: &[RealRow], copies: &[Pair]| RealFigures {
+        perturbed: PerturbedAgreement::of(copies, options.repeats),
+        ..RealFigures::of(rows.iter())
+    };
     let mut apples: Vec<RealRow> = Vec::new();
     let mut of_frames = Vec::new();
-    for (frame, answer) in frames.iter().zip(answers) {
+    for ((frame, answer), copies) in frames.iter().zip(answers).zip(copies) {
         let rows: Vec<RealRow> = answer
             .apples
             .iter()
@@ -120,14 +170,24 @@ fn result(
             .collect();
         of_frames.push(RealFrameFigures {
             frame: frame.frame.id.clone(),
-            figures: RealFigures::of(rows.iter()),
+            figures: figures(&rows, copies),
         });
         apples.extend(rows);
     }
+    let firsts = answers.iter().enumerate();
+    let (pairs, directions): (Vec<FrameAgreement>, Vec<Vec<Pair>>) = firsts
+        .flat_map(|(i, first)| {
+            answers[i + 1..]
+                .iter()
+                .map(move |second| between(first, second))
+        })
+        .unzip();
     RealResult {
         method: method.to_owned(),
-        all: RealFigures::of(apples.iter()),
+        all: figures(&apples, &copies.concat()),
         frames: of_frames,
+        between_frames: RealAgreement::of(&directions.concat()),
+        pairs,
         apples,
     }
 }

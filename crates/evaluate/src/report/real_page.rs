@@ -1,10 +1,16 @@
-use crate::real::{RealFigures, RealReport, RealResult, UnseenFigures};
+use crate::real::{RealAgreement, RealFigures, RealReport, RealResult, UnseenFigures};
 use pomona_report::html::{escape, heading, page, paragraph, table};
 use pomona_report::number::{degrees, or_unknown, percent, with_interval};
 use pomona_statistics::Proportion;
 
-/// A self-contained page of directions on real frames.
-pub fn real_page(report: &RealReport) -> String {
+/// What the pictures show.
+const CAPTION: &str = "Apples whose wood is seen: wrong answers first, the most confident first. Yellow: wood as drawn, \
+    and the points of it nearest to the apple; pale blue: other strokes. Sphere and line to the foot: green right, red \
+    elsewhere, orange refused.";
+
+/// A page of directions on real frames. `pictures` are the files of each result's pictures, relative to the page, the only
+/// thing that is not in it; none where there are none.
+pub fn real_page(report: &RealReport, pictures: &[Vec<String>]) -> String {
     let seen = match report.apple_radii {
         Some(radii) => format!(
             "An apple's wood counts as seen where wood is drawn within {radii} radii of the middle of its box."
@@ -20,9 +26,49 @@ pub fn real_page(report: &RealReport) -> String {
          (Wilson); apples of one frame are not independent, so they are too narrow.",
         report.seed
     ));
-    let rows: Vec<Vec<String>> = report.results.iter().flat_map(seen_rows).collect();
-    body += &heading("Apples whose wood is seen");
-    body += &table(
+    body += &against_wood(&report.results);
+    body += &against_themselves(&report.results);
+    for (number, result) in report.results.iter().enumerate() {
+        let title = format!(
+            "<h2>Method {}, apple by apple</h2>\n",
+            escape(&result.method)
+        );
+        body += &title;
+        let own = pictures.get(number).into_iter().flatten();
+        body += &own.map(|name| figure(name)).collect::<String>();
+        body += &apples(result);
+    }
+    page("Directions on real frames", &body)
+}
+
+fn figure(file: &str) -> String {
+    format!(
+        "<figure><img src=\"{}\" alt=\"apples whose wood is seen\" style=\"width: 100%\">\
+         <figcaption>{CAPTION}</figcaption></figure>\n",
+        escape(file)
+    )
+}
+
+/// A heading, a paragraph and a table; nothing without rows.
+fn section(title: &str, text: &str, header: &[&str], rows: &[Vec<String>]) -> String {
+    if rows.is_empty() {
+        return String::new();
+    }
+    let text = if text.is_empty() {
+        String::new()
+    } else {
+        paragraph(text)
+    };
+    heading(title) + &text + &table(header, rows)
+}
+
+fn against_wood(results: &[RealResult]) -> String {
+    let seen: Vec<Vec<String>> = results.iter().flat_map(seen_rows).collect();
+    let unseen: Vec<Vec<String>> = results.iter().flat_map(unseen_rows).collect();
+    let reliability: Vec<Vec<String>> = results.iter().flat_map(reliability_rows).collect();
+    section(
+        "Apples whose wood is seen",
+        "",
         &[
             "method",
             "frame",
@@ -33,35 +79,57 @@ pub fn real_page(report: &RealReport) -> String {
             "elsewhere",
             "refused",
         ],
-        &rows,
-    );
-    let rows: Vec<Vec<String>> = report.results.iter().flat_map(unseen_rows).collect();
-    if !rows.is_empty() {
-        body += &heading("Apples whose wood is not seen for certain");
-        body += &table(
-            &[
-                "method",
-                "wood",
-                "apples",
-                "refused %",
-                "answered %",
-                "confidence ≥ 0.5, %",
-            ],
-            &rows,
-        );
-    }
-    let rows: Vec<Vec<String>> = report.results.iter().flat_map(reliability_rows).collect();
-    if !rows.is_empty() {
-        body += &heading("Confidence of the answers to apples whose wood is seen");
-        body += &table(
-            &["method", "confidence", "answers", "right", "right %"],
-            &rows,
-        );
-    }
-    for result in &report.results {
-        body += &apples(result);
-    }
-    page("Directions on real frames", &body)
+        &seen,
+    ) + &section(
+        "Apples whose wood is not seen for certain",
+        "",
+        &[
+            "method",
+            "wood",
+            "apples",
+            "refused %",
+            "answered %",
+            "confidence ≥ 0.5, %",
+        ],
+        &unseen,
+    ) + &section(
+        "Confidence of the answers to apples whose wood is seen",
+        "",
+        &["method", "confidence", "answers", "right", "right %"],
+        &reliability,
+    )
+}
+
+fn against_themselves(results: &[RealResult]) -> String {
+    let between: Vec<Vec<String>> = results.iter().filter_map(between_rows).collect();
+    let perturbed: Vec<Vec<String>> = results.iter().flat_map(perturbed_rows).collect();
+    section(
+        "Directions of the same apples in two frames",
+        "Boxes of one name are one apple; the frames are aligned by the centres of the method's own spheres.",
+        &[
+            "method",
+            "pairs",
+            "answered in both %",
+            "within 20°, % of those",
+            "beyond 50°, % of those",
+        ],
+        &between,
+    ) + &section(
+        "Directions from perturbed copies of a frame",
+        "Boxes moved and scaled by up to 5 %, noise added to depth at the level that the frame has, colour as it is, \
+         15 % darker or 15 % brighter; beside the answers from the frame. Answers to one apple's copies depend on each \
+         other, so intervals are far too narrow.",
+        &[
+            "method",
+            "frame",
+            "boxes of copies",
+            "answered in one only %",
+            "answered in both %",
+            "within 20°, % of those",
+            "beyond 50°, % of those",
+        ],
+        &perturbed,
+    )
 }
 
 fn seen_rows(result: &RealResult) -> Vec<Vec<String>> {
@@ -140,6 +208,37 @@ fn reliability_rows(result: &RealResult) -> Vec<Vec<String>> {
     rows
 }
 
+fn agreement(of: &RealAgreement) -> [String; 3] {
+    [&of.answered_in_both, &of.within_20_deg, &of.beyond_50_deg].map(with_interval)
+}
+
+fn between_rows(result: &RealResult) -> Option<Vec<String>> {
+    let own = result.between_frames.as_ref()?;
+    let mut row = vec![result.method.clone(), own.answered_in_both.of.to_string()];
+    row.extend(agreement(own));
+    Some(row)
+}
+
+fn perturbed_rows(result: &RealResult) -> Vec<Vec<String>> {
+    let row = |frame: &str, figures: &RealFigures| {
+        let own = figures.perturbed.as_ref()?;
+        let mut row = vec![
+            result.method.clone(),
+            frame.to_owned(),
+            own.flipped.of.to_string(),
+            with_interval(&own.flipped),
+        ];
+        row.extend(agreement(&own.directions));
+        Some(row)
+    };
+    let frames = result.frames.iter().map(|f| row(&f.frame, &f.figures));
+    [row("all", &result.all)]
+        .into_iter()
+        .chain(frames)
+        .flatten()
+        .collect()
+}
+
 fn apples(result: &RealResult) -> String {
     let rows: Vec<Vec<String>> = result
         .apples
@@ -159,10 +258,7 @@ fn apples(result: &RealResult) -> String {
             ]
         })
         .collect();
-    format!(
-        "<h2>Method {}, apple by apple</h2>\n",
-        escape(&result.method)
-    ) + &table(
+    table(
         &[
             "box",
             "frame",

@@ -1,6 +1,6 @@
 //! Directions on frames whose wood is drawn: here synthetic ones, whose strokes are made from the ground truth.
 
-use nalgebra::{Point3, Vector3};
+use nalgebra::{Isometry3, Point3, Vector3};
 use pomona::{
     AppleAnswer, CheckedFrame, Config, FrameAnswer, Method, PickDirection, PickError, Picker,
 };
@@ -99,6 +99,7 @@ fn measured(scene: &Scene, options: &RealOptions) -> RealReport {
         &[drawn(scene)],
         &[&picker(), &method(false), &method(true)],
         options,
+        &|| {},
     )
     .unwrap()
 }
@@ -123,7 +124,7 @@ fn true_directions_point_at_the_wood_and_opposite_ones_elsewhere() {
     );
     let text = real_csv(&report).unwrap();
     assert_eq!(text.lines().count(), 1 + 3 * scene.truth.apples.len());
-    let page = real_page(&report);
+    let page = real_page(&report, &[]);
     assert!(page.contains("mirrored") && page.contains("Brier"));
     let json = serde_json::to_string(&report).unwrap();
     assert_eq!(serde_json::from_str::<RealReport>(&json).unwrap(), report);
@@ -167,7 +168,64 @@ fn a_table_says_whose_wood_is_seen() {
     assert!(message.contains("no line is about"), "{message}");
 }
 
-/// Writes a frame, and its strokes as text.
+/// Sees the frame `second` from a camera that is turned and moved, and one apple of it from the other side.
+struct Turned(Known);
+
+impl PickMethod for Turned {
+    fn name(&self) -> &'static str {
+        "turned"
+    }
+
+    fn answer(&self, frame: &CheckedFrame<'_>, seed: u64) -> Result<FrameAnswer, PickError> {
+        let mut answer = self.0.answer(frame, seed)?;
+        if answer.id == "second" {
+            let motion = Isometry3::new([0.2, 0.0, 0.1].into(), [0.0, 0.8, 0.0].into());
+            let picked = answer.apples.iter_mut().filter(|apple| apple.is_picked());
+            for (i, answer) in picked.enumerate() {
+                let (Some(apple), Some(pick)) = (&mut answer.apple, answer.pick) else {
+                    continue;
+                };
+                let center = apple.center.point();
+                let way = pick.foot.point() - center;
+                let foot = if i == 0 { center - way } else { center + way };
+                apple.center = Position::new(motion * center);
+                answer.pick = PickDirection::new(&apple.center, Position::new(motion * foot));
+            }
+        }
+        Ok(answer)
+    }
+}
+
+#[test]
+fn directions_of_two_frames_are_compared_in_one_frame() {
+    let scene = scene();
+    let [mut first, mut second] = [drawn(&scene), drawn(&scene)];
+    (first.frame.id, second.frame.id) = ("first".to_owned(), "second".to_owned());
+    let method = Turned(Known {
+        truth: scene.truth.clone(),
+        picker: Picker::new(Config::default()).unwrap(),
+        mirrored: false,
+    });
+    let mut options = RealOptions::default();
+    options.repeats = 2;
+    let report = measure_real(&[first, second], &[&method], &options, &|| {}).unwrap();
+    let result = &report.results[0];
+    assert_eq!(result.pairs.len(), 1);
+    let agreement = result.between_frames.as_ref().unwrap();
+    assert_eq!(result.pairs[0].directions.as_ref(), Some(agreement));
+    let answered = agreement.answered_in_both.count;
+    assert!(answered >= 3, "{agreement:?}");
+    assert_eq!(agreement.within_20_deg.count, answered - 1, "{agreement:?}");
+    assert_eq!(agreement.beyond_50_deg.count, 1);
+    // The known answer does not follow what is done to the copies.
+    let perturbed = result.all.perturbed.as_ref().unwrap();
+    assert_eq!(perturbed.copies, 2);
+    assert_eq!(perturbed.flipped.of, 2 * 2 * scene.truth.apples.len());
+    assert_eq!(perturbed.directions.beyond_50_deg.count, 0, "{perturbed:?}");
+    assert!(real_page(&report, &[]).contains("perturbed copies"));
+}
+
+/// Writes a frame.
 fn written(folder: &Path, frame: &Frame) -> PathBuf {
     let path = folder.join(&frame.id);
     frame.write(&path).unwrap();

@@ -9,6 +9,7 @@ mod branch;
 mod confidence;
 mod cross_section;
 mod line_hypothesis;
+mod nearest;
 mod ray;
 mod shell;
 mod silhouette;
@@ -135,7 +136,7 @@ fn find_branch(
         sigma: noise.sigma(apple.center.z),
         config,
     };
-    let ranked = search.candidates(&mut scratch.sections);
+    let ranked = nearest::ranked(&search.candidates(&mut scratch.sections), &apple);
     let (ranked, decided) = match frame.wood() {
         None => {
             answer.candidates = ranked.iter().map(branch_candidate).collect();

@@ -8,13 +8,12 @@
 //!    to the apple.
 //! 4. **Depth** (`depth`): from the readings on the band. Where there are none, wood in front of the apple lies on it,
 //!    and other wood about as far off as the apple.
-//! 5. **Nearest first** (`nearest`): the probability that a candidate is wood and that none of the nearer ones is.
+//! 5. **Nearest first** (`robust::nearest`): the probability that a candidate is wood and that none of the nearer ones is.
 
 mod crossings;
 mod depth;
 mod evidence;
 mod line;
-mod nearest;
 mod view;
 
 use super::apple::SeenApple;
@@ -22,13 +21,13 @@ use super::axis::BranchAxis;
 use super::axis_fit::AxisSupport;
 use super::branch::Candidate;
 use super::confidence::without_candidate;
+use super::nearest::{Place, nearest_first};
 use crate::optics::window_of_sphere;
 use crate::outcome::Status;
 use crossings::Crossings;
 use depth::Lifted;
 use evidence::{Band, Evidence};
 use line::{ImageLine, image_lines};
-use nearest::{Place, nearest_first};
 use pomona_geometry::Sphere;
 use rand_chacha::ChaCha8Rng;
 pub(crate) use view::WoodSearch;

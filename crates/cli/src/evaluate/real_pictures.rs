@@ -17,11 +17,14 @@ const ON_A_SHEET: usize = 12;
 /// Widths in pixels of the picture: of what a person drew, and of what a method says.
 const THIN: f32 = 1.2;
 const WIDE: f32 = 3.0;
+/// Width of the dark rim that sets a line off from red apples and bright sky.
+const RIM: f32 = 6.0;
+const DARK: [u8; 3] = [20, 22, 28];
 /// Radius of a dot.
 const DOT: f32 = 5.0;
 
 const RIGHT: [u8; 3] = [30, 235, 60];
-const ELSEWHERE: [u8; 3] = [255, 30, 30];
+const ELSEWHERE: [u8; 3] = [255, 60, 220];
 const REFUSED: [u8; 3] = [255, 150, 20];
 const WOOD: [u8; 3] = [255, 222, 0];
 const OTHER_STROKE: [u8; 3] = [150, 200, 255];
@@ -141,6 +144,8 @@ fn drawn(frame: &RealFrame, row: &RealRow) -> anyhow::Result<ColorImage> {
         let focal_px = f64::midpoint(frame.frame.camera.fx, frame.frame.camera.fy);
         picture.circle(center, radius * focal_px / z, color, THIN);
         if let Some(foot) = row.foot_px {
+            picture.line(&[center, foot], DARK, RIM);
+            picture.dot(foot, DOT + (RIM - WIDE) / 2.0, DARK);
             picture.line(&[center, foot], color, WIDE);
             picture.dot(foot, DOT, color);
         }

@@ -12,6 +12,7 @@ pub(super) fn tables(report: &RealReport, terminal: Terminal) -> String {
         "answered %",
         "right % of answers",
         "95 %",
+        "foot on wood %",
         "right % of apples",
         "elsewhere",
         "refused",
@@ -150,6 +151,7 @@ fn seen(figures: &RealFigures) -> Vec<String> {
             100.0 * seen.right.low,
             100.0 * seen.right.high
         ),
+        percent(&seen.on_wood),
         percent(&seen.hits),
         seen.elsewhere.to_string(),
         refused.collect::<Vec<_>>().join(", "),

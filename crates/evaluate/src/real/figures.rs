@@ -8,6 +8,9 @@ use std::collections::BTreeMap;
 /// Bounds of the ranges of confidence: doubted, weak, fair and sure answers. Few, since frames have few apples.
 const CONFIDENCE_BOUNDS: [f64; 5] = [0.0, 0.5, 0.7, 0.9, 1.0];
 
+/// Distance from the edge of wood within which a foot is on it: strokes and centres are some pixels off; radii.
+const ON_WOOD_RADII: f64 = 0.15;
+
 /// A confidence from here on is that of an answer that a robot would act on.
 const CONFIDENT: f64 = 0.5;
 
@@ -35,6 +38,9 @@ impl SeenFigures {
     fn of(rows: &[&RealRow]) -> Self {
         let count = |verdict| rows.iter().filter(|row| row.verdict == verdict).count();
         let (right, elsewhere) = (count(Verdict::Right), count(Verdict::Elsewhere));
+        let is_on_wood =
+            |row: &&&RealRow| row.foot_off_wood_radii.is_some_and(|d| d <= ON_WOOD_RADII);
+        let on_wood = rows.iter().filter(is_on_wood).count();
         let mut refused = BTreeMap::new();
         for row in rows.iter().filter(|row| row.verdict == Verdict::Refused) {
             *refused.entry(row.status.clone()).or_insert(0) += 1;
@@ -42,6 +48,7 @@ impl SeenFigures {
         Self {
             answered: Proportion::new(right + elsewhere, rows.len()),
             right: Proportion::new(right, right + elsewhere),
+            on_wood: Proportion::new(on_wood, right + elsewhere),
             hits: Proportion::new(right, rows.len()),
             elsewhere,
             refused,
@@ -121,6 +128,7 @@ mod tests {
             image_angle: None,
             wood_distance_radii: None,
             foot_from_wood_radii: None,
+            foot_off_wood_radii: (verdict == Verdict::Right).then_some(0.1),
             passed_over: 0,
             distance: None,
             radius: None,
@@ -151,6 +159,7 @@ mod tests {
         let counts = |p: &Proportion| (p.count, p.of);
         assert_eq!(counts(&figures.seen.answered), (3, 4));
         assert_eq!(counts(&figures.seen.right), (1, 3));
+        assert_eq!(counts(&figures.seen.on_wood), (1, 3));
         assert_eq!(counts(&figures.seen.hits), (1, 4));
         assert_eq!(figures.seen.elsewhere, 2);
         assert_eq!(figures.seen.refused["no_branch"], 1);

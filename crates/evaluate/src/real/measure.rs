@@ -208,6 +208,7 @@ fn row(frame: &RealFrame, answer: &AppleAnswer, wood: WoodSeen) -> RealRow {
         image_angle: sight.angle,
         wood_distance_radii: near.map(|wood| wood.distance_px / radius_px),
         foot_from_wood_radii: sight.foot_from_wood_px.map(|d| d / radius_px),
+        foot_off_wood_radii: sight.foot_off_wood_px.map(|d| d / radius_px),
         passed_over: near.map_or(0, |wood| wood.passed_over),
         distance: center.map(|c| c.coords.norm()),
         radius: answer.apple.map(|apple| apple.radius_m),

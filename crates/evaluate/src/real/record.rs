@@ -166,6 +166,11 @@ pub struct SeenFigures {
     /// Share of the answers that point at the wood.
     #[cfg_attr(test, schemars(with = "pomona_schema::Proportion"))]
     pub right: Proportion,
+    /// Share of the answers whose foot is on that wood, within 0.15 radii of its edge, wherever along it: another measure,
+    /// which a foot beside the nearest point meets, as perspective and slanting wood bring it about, and one that points
+    /// past the wood does not.
+    #[cfg_attr(test, schemars(with = "pomona_schema::Proportion"))]
+    pub on_wood: Proportion,
     /// Share of the apples with an answer that points at the wood.
     #[cfg_attr(test, schemars(with = "pomona_schema::Proportion"))]
     pub hits: Proportion,
@@ -286,6 +291,10 @@ pub struct RealRow {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(test, schemars(range(min = 0)))]
     pub foot_from_wood_radii: Option<f64>,
+    /// Distance of the foot from that wood anywhere along it in the image, radii of the box; 0 on it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(test, schemars(range(min = 0)))]
+    pub foot_off_wood_radii: Option<f64>,
     /// Number of strokes nearer than that wood that depth shows far in front of the apple or behind it.
     pub passed_over: usize,
     /// Distance of the fitted centre from the camera.

@@ -47,6 +47,7 @@ const COLUMNS: &[Column] = &[
     ("image_angle_rad", |r| number(r.image_angle)),
     ("wood_distance_radii", |r| number(r.wood_distance_radii)),
     ("foot_from_wood_radii", |r| number(r.foot_from_wood_radii)),
+    ("foot_off_wood_radii", |r| number(r.foot_off_wood_radii)),
     ("passed_over", |r| Some(r.passed_over.to_string())),
     ("distance_m", |r| number(r.distance)),
     ("radius_m", |r| number(r.radius)),

@@ -16,23 +16,25 @@ const ON_WOOD_RADII: f64 = 0.5;
 
 /// How an answer lies to the wood nearest to it, in the image.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Sight {
+pub(super) struct Sight<'a> {
     /// Where the method sees the apple's centre.
     pub(super) center_px: Option<[f64; 2]>,
     /// Where it sees the foot.
     pub(super) foot_px: Option<[f64; 2]>,
     /// The wood nearest to the centre.
-    pub(super) wood: Option<WoodNear>,
+    pub(super) wood: Option<WoodNear<'a>>,
     /// Angle between the directions to foot and wood, the smallest over the wood that is as near; radians.
     pub(super) angle: Option<f64>,
     /// Distance of the foot from the nearest point of that wood, pixels.
     pub(super) foot_from_wood_px: Option<f64>,
+    /// Distance of the foot from that wood anywhere along it, pixels.
+    pub(super) foot_off_wood_px: Option<f64>,
     /// Whether the answer points at wood.
     pub(super) right: Option<bool>,
 }
 
-impl Sight {
-    pub(super) fn of(frame: &RealFrame, answer: &AppleAnswer) -> Self {
+impl<'a> Sight<'a> {
+    pub(super) fn of(frame: &'a RealFrame, answer: &AppleAnswer) -> Self {
         let camera = &frame.frame.camera;
         let pixel = |point| camera.project(&point).map(|(u, v)| [u + 0.5, v + 0.5]);
         let Some(center) = answer.apple.map(|apple| apple.center.point()) else {
@@ -63,6 +65,7 @@ impl Sight {
             };
             sight.angle = smallest(&|wood| angle(to_foot, minus(wood, center_px)));
             sight.foot_from_wood_px = smallest(&|wood| length(minus(foot, wood)));
+            sight.foot_off_wood_px = wood.distance_from(foot);
             sight.right = Some(
                 wood.feet
                     .iter()

@@ -1,6 +1,6 @@
 use super::frame::RealFrame;
 use pomona_cloud::{DepthImage, PixelBox};
-use pomona_labels::StrokePoint;
+use pomona_labels::{Stroke, StrokePoint};
 use pomona_statistics::median;
 
 /// Strokes that are further than the nearest one by no more than this count equally as nearest; radii of the apple. The
@@ -32,13 +32,26 @@ pub(super) struct Place {
 
 /// The wood nearest to a place.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct WoodNear {
-    /// The nearest point of each stroke that is as near as the nearest one, the nearest first.
+pub(super) struct WoodNear<'a> {
+    /// The strokes that are as near as the nearest one, the nearest first.
+    pub(super) strokes: Vec<&'a Stroke>,
+    /// The nearest point of each.
     pub(super) feet: Vec<[f64; 2]>,
     /// Distance of the first, pixels.
     pub(super) distance_px: f64,
     /// Strokes nearer than it that depth shows far in front of the apple or behind it.
     pub(super) passed_over: usize,
+}
+
+impl WoodNear<'_> {
+    /// Distance in pixels of a place from the edge of that wood anywhere along it; 0 on it.
+    pub(super) fn distance_from(&self, place: [f64; 2]) -> Option<f64> {
+        let from_edge = |stroke: &&Stroke| {
+            let (distance, half_width) = stroke.nearest(place);
+            (distance - half_width).max(0.0)
+        };
+        self.strokes.iter().map(from_edge).min_by(f64::total_cmp)
+    }
 }
 
 /// Radius in pixels of an apple by its box: half the mean of its sides.
@@ -57,10 +70,13 @@ pub(super) fn distance_from_box(frame: &RealFrame, bounds: &PixelBox) -> Option<
 }
 
 /// The wood nearest to a place; `None` where no stroke of wood is near in depth.
-pub(super) fn wood_near(frame: &RealFrame, place: &Place) -> Option<WoodNear> {
-    let mut feet: Vec<(f64, StrokePoint)> = frame
+pub(super) fn wood_near<'a>(frame: &'a RealFrame, place: &Place) -> Option<WoodNear<'a>> {
+    let mut feet: Vec<(f64, StrokePoint, &Stroke)> = frame
         .wood_strokes()
-        .filter_map(|stroke| stroke.nearest_point(place.center_px))
+        .filter_map(|stroke| {
+            let (distance, foot) = stroke.nearest_point(place.center_px)?;
+            Some((distance, foot, stroke))
+        })
         .collect();
     feet.sort_by(|a, b| a.0.total_cmp(&b.0));
     let is_own = |foot: &StrokePoint| {
@@ -69,14 +85,15 @@ pub(super) fn wood_near(frame: &RealFrame, place: &Place) -> Option<WoodNear> {
             (depth_m - place.depth_m).abs() <= OWN_DEPTH_RADII * place.radius_m
         })
     };
-    let nearest = feet.iter().position(|(_, foot)| is_own(foot))?;
+    let nearest = feet.iter().position(|(_, foot, _)| is_own(foot))?;
     let distance_px = feet[nearest].0;
     let as_near = feet[nearest..]
         .iter()
-        .take_while(|(distance, _)| *distance <= distance_px + AS_NEAR_RADII * place.radius_px)
-        .filter(|(_, foot)| is_own(foot));
+        .take_while(|(distance, _, _)| *distance <= distance_px + AS_NEAR_RADII * place.radius_px)
+        .filter(|(_, foot, _)| is_own(foot));
     Some(WoodNear {
-        feet: as_near.map(|(_, foot)| [foot.x, foot.y]).collect(),
+        strokes: as_near.clone().map(|(_, _, stroke)| *stroke).collect(),
+        feet: as_near.map(|(_, foot, _)| [foot.x, foot.y]).collect(),
         distance_px,
         passed_over: nearest,
     })
@@ -134,6 +151,8 @@ mod tests {
         let near = wood_near(&frame, &PLACE).unwrap();
         assert_eq!(near.feet, [[100.0, 45.0], [100.0, 160.0]]);
         assert_eq!((near.distance_px, near.passed_over), (55.0, 0));
+        assert_eq!(near.distance_from([0.0, 46.0]), Some(0.0));
+        assert_eq!(near.distance_from([30.0, 150.0]), Some(8.0));
     }
 
     #[test]
@@ -145,12 +164,12 @@ mod tests {
             for v in v - 3..v + 3 {
                 frame.frame.depth.readings[v * width + 90..v * width + 110].fill(reading);
             }
-            wood_near(&frame, &PLACE)
+            wood_near(&frame, &PLACE).map(|near| (near.feet, near.passed_over))
         };
-        assert_eq!(read(60, 1.0).unwrap().feet, [[100.0, 60.0]]);
-        assert_eq!(read(60, 1.15).unwrap().passed_over, 0);
-        let near = read(60, 1.17).unwrap();
-        assert_eq!((near.feet, near.passed_over), (vec![[100.0, 170.0]], 1));
+        let (upper, lower) = (vec![[100.0, 60.0]], vec![[100.0, 170.0]]);
+        assert_eq!(read(60, 1.0), Some((upper.clone(), 0)));
+        assert_eq!(read(60, 1.15), Some((upper, 0)));
+        assert_eq!(read(60, 1.17), Some((lower, 1)));
         assert_eq!(read(170, 0.5), None);
     }
 }

@@ -5,7 +5,7 @@ use pomona_statistics::Proportion;
 
 /// What the pictures show.
 const CAPTION: &str = "Apples whose wood is seen: wrong answers first, the most confident first. Yellow: wood as drawn, \
-    and the points of it nearest to the apple; pale blue: other strokes. Sphere and line to the foot: green right, red \
+    and the points of it nearest to the apple; pale blue: other strokes. Sphere and line to the foot: green right, pink \
     elsewhere, orange refused.";
 
 /// A page of directions on real frames. `pictures` are the files of each result's pictures, relative to the page, the only
@@ -75,6 +75,7 @@ fn against_wood(results: &[RealResult]) -> String {
             "apples",
             "answered %",
             "right, % of answers",
+            "foot on the wood, % of answers",
             "right, % of apples",
             "elsewhere",
             "refused",
@@ -145,6 +146,7 @@ fn seen_rows(result: &RealResult) -> Vec<Vec<String>> {
             seen.answered.of.to_string(),
             with_interval(&seen.answered),
             with_interval(&seen.right),
+            with_interval(&seen.on_wood),
             with_interval(&seen.hits),
             seen.elsewhere.to_string(),
             refused.collect::<Vec<_>>().join(", "),

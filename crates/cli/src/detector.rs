@@ -53,6 +53,11 @@ pub(crate) enum Model {
 }
 
 impl DetectorArguments {
+    /// The inference backend.
+    pub(crate) fn runtime(&self) -> &RuntimeChoice {
+        self.settings.runtime()
+    }
+
     /// Opens the detector.
     pub(crate) fn open(&self) -> Result<Box<dyn Detector>, DetectError> {
         self.settings

@@ -25,6 +25,7 @@ mod settings;
 mod summary;
 mod table;
 mod terminal;
+mod wood;
 
 use clap::Parser;
 use std::io::ErrorKind;

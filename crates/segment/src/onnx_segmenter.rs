@@ -47,6 +47,17 @@ impl OnnxSegmenter {
         description: &SegmentDescription,
         tiling: TilingChoice,
     ) -> Result<Self, SegmentError> {
+        Self::zoomed(network, name, description, tiling, 1.0)
+    }
+
+    /// The same with tiles that are enlarged by `zoom` for the network.
+    pub(crate) fn zoomed(
+        network: Box<dyn Network>,
+        name: impl Into<String>,
+        description: &SegmentDescription,
+        tiling: TilingChoice,
+        zoom: f64,
+    ) -> Result<Self, SegmentError> {
         let name = name.into();
         let model = |fault: Malformed| NetworkError::model(&*name, fault);
         let [width, height] =
@@ -61,7 +72,11 @@ impl OnnxSegmenter {
                 input[0], input[1]
             ));
         }
-        let tiling = Tiling::new(&description.tiling(tiling, input), input)?;
+        let mut tiles = description.tiling(tiling, input);
+        let zoomed = |length: usize| (length as f64 / zoom).round() as usize;
+        tiles.tile = tiles.tile.map(|tile| zoomed(tile).max(1));
+        tiles.overlap = zoomed(tiles.overlap);
+        let tiling = Tiling::new(&tiles, input)?;
         let network =
             ImageNetwork::new(network, input, description.preparation()).map_err(model)?;
         let (channels, activation) = match (declared, description.activation) {

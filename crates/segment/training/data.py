@@ -14,10 +14,9 @@ cv2.setNumThreads(0)
 class Picture:
     """A colour image (RGB), the classes that each of its pixels may have (bits), and places worth a look."""
 
-    def __init__(self, name, image, mask, places, posts=()):
+    def __init__(self, name, image, mask, places):
         self.name, self.image, self.mask = name, image, mask
         self.places = np.asarray(places, np.float32).reshape(-1, 2)
-        self.posts = np.asarray(posts, np.float32).reshape(-1, 2)
 
 
 def read_image(path):
@@ -48,8 +47,7 @@ def read_labelled(strokes, folders):
         boxes = read_boxes(path.parent.parent / "labels" / (path.stem + ".txt"), width, height)
         mask = allowed((height, width), lines, boxes, unlabelled_fruit=boxes is None)
         places = [p[:2] for _, points in lines for p in points]
-        posts = [p[:2] for kind, points in lines if kind == "post" for p in points]
-        pictures.append(Picture(name, image, mask, places, posts))
+        pictures.append(Picture(name, image, mask, places))
     return pictures
 
 
@@ -75,9 +73,7 @@ def crop(picture, size, scale, rng):
     """A square of `size` pixels of the picture scaled by `scale`, turned, stretched and maybe mirrored."""
     height, width = picture.image.shape[:2]
     side = size / scale
-    if len(picture.posts) and rng.random() < 0.3:
-        centre = picture.posts[rng.integers(len(picture.posts))] + rng.uniform(-0.4, 0.4, 2) * side
-    elif len(picture.places) and rng.random() < 0.7:
+    if len(picture.places) and rng.random() < 0.7:
         centre = picture.places[rng.integers(len(picture.places))] + rng.uniform(-0.4, 0.4, 2) * side
     else:
         centre = rng.uniform(0, 1, 2) * [width, height]
@@ -106,10 +102,10 @@ def crop(picture, size, scale, rng):
 def recolour(image, rng):
     """Other light, other cameras: white balance, hue, saturation, exposure, contrast, haze, blur, noise, compression."""
     x = image.astype(np.float32) / 255
-    x = x ** np.exp(rng.uniform(-0.55, 0.55))
-    x = x * np.exp(rng.normal(0, 0.16, 3)).astype(np.float32) * np.exp(rng.uniform(-0.35, 0.25))
+    x = x ** np.exp(rng.uniform(-0.45, 0.45))
+    x = x * np.exp(rng.normal(0, 0.13, 3)).astype(np.float32) * np.exp(rng.uniform(-0.35, 0.25))
     grey = x.mean(2, keepdims=True)
-    x = grey + (x - grey) * rng.uniform(0.25, 1.6)
+    x = grey + (x - grey) * rng.uniform(0.35, 1.5)
     middle = x.mean()
     x = middle + (x - middle) * np.exp(rng.uniform(-0.35, 0.3))
     if rng.random() < 0.15:
@@ -120,9 +116,9 @@ def recolour(image, rng):
         field = cv2.resize(rng.normal(0, 0.25, (3, 3)).astype(np.float32), (size, size), interpolation=cv2.INTER_CUBIC)
         x = x * np.exp(field)[:, :, None]
     image = (x * 255).clip(0, 255).astype(np.uint8)
-    if rng.random() < 0.25:
+    if rng.random() < 0.15:
         hue, saturation, value = cv2.split(cv2.cvtColor(image, cv2.COLOR_RGB2HSV))
-        hue = ((hue.astype(int) + int(rng.integers(-12, 13))) % 180).astype(np.uint8)
+        hue = ((hue.astype(int) + int(rng.integers(-8, 9))) % 180).astype(np.uint8)
         image = cv2.cvtColor(cv2.merge([hue, saturation, value]), cv2.COLOR_HSV2RGB)
     if rng.random() < 0.25:
         image = cv2.GaussianBlur(image, (0, 0), rng.uniform(0.4, 1.4))
@@ -147,10 +143,6 @@ def recolour(image, rng):
     return image
 
 
-# Share of crops that have posts drawn over them.
-DISTRACTED = 0.15
-
-
 def distract(image, mask, rng):
     """Posts, wires and pipes drawn over the picture."""
     size = image.shape[0]
@@ -158,8 +150,6 @@ def distract(image, mask, rng):
     for _ in range(rng.integers(1, 4)):
         width = np.exp(rng.uniform(np.log(1.5), np.log(40)))
         middle, angle = rng.uniform(0, size, 2), rng.choice([0, np.pi / 2]) + rng.normal(0, 0.2)
-        if rng.random() < 0.25:
-            angle = rng.uniform(0, np.pi)
         along = np.array([np.cos(angle), np.sin(angle)])
         across = np.array([-along[1], along[0]]) * width / 2
         color = rng.uniform(10, 250) + rng.normal(0, 25, 3)
@@ -186,12 +176,12 @@ def sample(labelled, rendered, size, rng, rendered_share):
         picture = labelled[rng.integers(len(labelled))]
         scale = np.exp(rng.uniform(np.log(0.55), np.log(2.2)))
     image, mask = crop(picture, size, scale, rng)
-    if rng.random() < DISTRACTED:
+    if rng.random() < 0.06:
         image, mask = distract(image, mask, rng)
     return recolour(image, rng), mask
 
 
-def batch(labelled, rendered, size, count, seed, rendered_share=0.06):
+def batch(labelled, rendered, size, count, seed, rendered_share=0.12):
     """`count` crops: images uint8 [N, H, W, 3], allowed classes uint8 [N, H, W]."""
     rng = np.random.default_rng(seed)
     images, masks = zip(*(sample(labelled, rendered, size, rng, rendered_share) for _ in range(count)))

@@ -34,6 +34,8 @@
 //! [`draw_boxes`] draws only boxes, each a [`BoxMark`], and [`contact_sheet`] arranges such pictures on a contact
 //! sheet.
 //!
+//! An [`Enlargement`] is a part of an image, enlarged, with lines and circles.
+//!
 //! [`tint`] mixes a colour into pixels, such as those of a mask.
 //!
 //! [`colored_cloud`] colours the points of a cloud in the same way and adds the direction as points, so that any PLY
@@ -62,6 +64,7 @@ mod box_picture;
 mod boxes;
 mod canvas;
 mod colored_cloud;
+mod enlargement;
 mod error;
 mod gripper;
 mod label;
@@ -81,6 +84,7 @@ mod viewpoint;
 
 pub use box_picture::{BoxKind, BoxMark, draw_boxes};
 pub use colored_cloud::{CloudMark, colored_cloud};
+pub use enlargement::Enlargement;
 pub use error::ViewError;
 pub use mark::AppleMark;
 pub use overlay::Overlay;

@@ -1,11 +1,12 @@
 use super::results::{REPORT, Results, json};
 use super::segmentation_text;
 use super::worst_sheet::{self, is_sheet, stem};
-use crate::detector::{BUILT_IN, DetectorSettings, Model, parse_model, parse_share};
+use crate::detector::{BUILT_IN, DetectorSettings, Model, parse_share};
 use crate::output_folder::Staging;
 use crate::progress;
 use crate::segmenter::{open, say};
 use crate::terminal::Terminal;
+use crate::wood::{SegmenterChoice, parse_segmenter};
 use anyhow::{anyhow, bail};
 use clap::Args;
 use pomona_cloud::{ColorImage, GrayImage};
@@ -20,6 +21,8 @@ use std::path::{Path, PathBuf};
 
 /// Heading of these options.
 const HEADING: &str = "Segmentation";
+/// The options of which one says what strokes are for.
+pub(super) const STROKED: &str = "stroked";
 const SEGMENTATION: &str = "segmentation.json";
 /// The strokes of a folder, where `--strokes` is not given.
 const STROKES: &str = "strokes.txt";
@@ -30,18 +33,19 @@ const OPACITY: f32 = 0.6;
 #[derive(Clone, Debug, Default, Args)]
 pub(super) struct SegmentationArguments {
     /// Measure masks of wood on strokes drawn by eye: the folder of the images (or of their `images/`, or of frames).
-    #[arg(long, value_name = "FOLDER", help_heading = HEADING, conflicts_with_all = ["subjects", "methods", "variants", "SettingValues", "calipers", "detection"])]
+    #[arg(long, value_name = "FOLDER", help_heading = HEADING, group = STROKED, conflicts_with_all = ["subjects", "methods", "variants", "SettingValues", "calipers", "detection"])]
     pub(super) segmentation: Option<PathBuf>,
-    /// The strokes. Default: strokes.txt in the folder.
-    #[arg(long, value_name = "FILE", requires = "segmentation", help_heading = HEADING)]
-    strokes: Option<PathBuf>,
+    /// The strokes, also with --real. Default: strokes.txt in the folder; with --real wood.txt in each frame's folder.
+    #[arg(long, value_name = "FILE", requires = STROKED, help_heading = HEADING)]
+    pub(super) strokes: Option<PathBuf>,
     /// A second person's strokes of some of the images, for the agreement of their centre lines with these.
     #[arg(long, value_name = "FILE", requires = "segmentation", help_heading = HEADING)]
     second_strokes: Option<PathBuf>,
     /// A segmentation model to measure (ONNX), or `built-in`; may be repeated. Default: built-in, unless --masks are
-    /// given.
-    #[arg(long = "segmenter", value_name = "FILE", value_parser = parse_model, requires = "segmentation", help_heading = HEADING)]
-    segmenters: Vec<Model>,
+    /// given. With --real the model that tells the methods where wood is, or `none`; default: built-in, unless
+    /// --wood-masks are given.
+    #[arg(long = "segmenter", value_name = "FILE", value_parser = parse_segmenter, requires = STROKED, help_heading = HEADING)]
+    pub(super) segmenters: Vec<SegmenterChoice>,
     /// Masks of another program: a folder with NAME.wood.png (or NAME.png) for each image, grey, 255 where it is
     /// sure of wood; may be repeated.
     #[arg(long, value_name = "FOLDER", requires = "segmentation", help_heading = HEADING)]
@@ -52,9 +56,13 @@ pub(super) struct SegmentationArguments {
     /// Distance in pixels within which wood is found and a mark is right.
     #[arg(long, value_name = "PX", default_value_t = 3.0, value_parser = parse_tolerance, requires = "segmentation", help_heading = HEADING)]
     tolerance_px: f64,
-    /// Count only what lies within N radii of the apples boxed in each frame, where only that has been drawn in.
-    #[arg(long, value_name = "N", value_parser = parse_tolerance, requires = "segmentation", help_heading = HEADING)]
-    apple_radii: Option<f64>,
+    /// Count only what lies within N radii of the apples boxed in each frame, where only that has been drawn in. With
+    /// --real and without --apples: the wood of an apple is seen where wood is drawn within N radii (default 3).
+    #[arg(long, value_name = "N", value_parser = parse_tolerance, requires = STROKED, help_heading = HEADING)]
+    pub(super) apple_radii: Option<f64>,
+    /// Scales at which models look at an image, separated by commas; the result is the mean.
+    #[arg(long, value_name = "ZOOM", value_delimiter = ',', default_value = "1", requires = "segmentation", help_heading = HEADING)]
+    zoom: Vec<f64>,
 }
 
 fn parse_tolerance(text: &str) -> Result<f64, String> {
@@ -128,11 +136,14 @@ impl SegmentationArguments {
         terminal: Terminal,
     ) -> anyhow::Result<Vec<(String, Box<dyn Segmenter>)>> {
         let models = match (&*self.segmenters, &*self.masks) {
-            ([], []) => &[Model::BuiltIn][..],
+            ([], []) => &[SegmenterChoice::Model(Model::BuiltIn)][..],
             (models, _) => models,
         };
         let mut opened: Vec<(String, Box<dyn Segmenter>)> = Vec::new();
-        for model in models {
+        for choice in models {
+            let SegmenterChoice::Model(model) = choice else {
+                bail!("--segmenter none: give a model to measure, or masks by --masks");
+            };
             let name = match model {
                 Model::BuiltIn => BUILT_IN.to_owned(),
                 Model::File(path) => stem(path),
@@ -142,7 +153,7 @@ impl SegmentationArguments {
                     "--segmenter: `{name}` is given twice; give each once, and files names of their own"
                 );
             }
-            let segmenter = open(model, settings.runtime(), settings.tiles())?;
+            let segmenter = open(model, settings.runtime(), settings.tiles(), &self.zoom)?;
             say(&segmenter.report(), terminal);
             opened.push((name, segmenter));
         }

@@ -85,6 +85,11 @@ pub struct CandidateRecord {
     /// Length that something nearer hides.
     #[cfg_attr(test, schemars(range(min = 0.0)))]
     pub hidden: f64,
+    /// Probability that it is wood, where the colour image tells; the score is then the probability that it is the
+    /// nearest wood.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(test, schemars(range(min = 0.0, max = 1.0)))]
+    pub wood: Option<f64>,
 }
 
 impl From<&FittedApple> for AppleRecord {
@@ -126,6 +131,7 @@ impl From<&BranchCandidate> for CandidateRecord {
             odd: candidate.odd_m,
             empty: candidate.empty_m,
             hidden: candidate.hidden_m,
+            wood: candidate.wood,
         }
     }
 }

@@ -395,6 +395,11 @@ fn slips_of_the_command_line_are_usage_errors() {
     let out = text(&dir, "out");
     for (more, word) in [
         ("--strokes s.txt", "--segmentation"),
+        ("lab15 --strokes s.txt", "--segmentation"),
+        ("lab15 --segmenter built-in", "--segmentation"),
+        ("lab15 --apple-radii 3", "--segmentation"),
+        ("a --calipers c.csv --strokes s.txt", "--segmentation"),
+        ("--detection x --strokes s.txt", "--segmentation"),
         ("--segmentation x --detection y", "--detection"),
         ("--segmentation x lab15", "--segmentation"),
         (
@@ -424,14 +429,11 @@ fn options_of_another_mode_are_usage_errors() {
         (
             "lab15",
             &[
-                "--strokes s.txt",
                 "--truth-masks m",
                 "--second-strokes s.txt",
-                "--segmenter built-in",
                 "--masks m",
                 "--wood-threshold 0.4",
                 "--tolerance-px 2",
-                "--apple-radii 3",
             ][..],
             "belongs to --segmentation, not to suites and frames with truth",
         ),
@@ -456,7 +458,7 @@ fn options_of_another_mode_are_usage_errors() {
         ),
         (
             "a --calipers c.csv",
-            &["--strokes s.txt", "--masks m"],
+            &["--masks m"],
             "belongs to --segmentation, not to --calipers",
         ),
         (
@@ -466,7 +468,7 @@ fn options_of_another_mode_are_usage_errors() {
         ),
         (
             "--detection x",
-            &["--strokes s.txt", "--wood-threshold 0.5"],
+            &["--wood-threshold 0.5"],
             "belongs to --segmentation, not to --detection",
         ),
         (

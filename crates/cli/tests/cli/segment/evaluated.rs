@@ -397,9 +397,7 @@ fn slips_of_the_command_line_are_usage_errors() {
         ("--strokes s.txt", "--segmentation"),
         ("lab15 --strokes s.txt", "--segmentation"),
         ("lab15 --segmenter built-in", "--segmentation"),
-        ("lab15 --apple-radii 3", "--segmentation"),
         ("a --calipers c.csv --strokes s.txt", "--segmentation"),
-        ("--detection x --strokes s.txt", "--segmentation"),
         ("--segmentation x --detection y", "--detection"),
         ("--segmentation x lab15", "--segmentation"),
         (

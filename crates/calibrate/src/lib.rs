@@ -12,7 +12,7 @@
 //!     .map(|i| {
 //!         let (i, id) = (f64::from(i), format!("p{i}"));
 //!         let camera = Position::new(Point3::new(0.1 * i, 0.3 * (i * 2.0).sin(), 0.8 + 0.2 * i.cos()));
-//!         PointSample { id, camera, robot: truth.position(&camera) }
+//!         PointSample::new(id, camera, truth.position(&camera))
 //!     })
 //!     .collect();
 //! samples[3].robot = samples[4].robot;

@@ -2,6 +2,7 @@ use crate::CalibrateError;
 
 /// Settings of a calibration.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Options {
     /// Distance from the camera to the fruit, m: where the error matters, straight ahead. 0.8 by default.
     pub fruit_distance_m: f64,

@@ -51,6 +51,7 @@ impl CalibrationKind {
 
 /// A calibration in the form of its two files: the transform for the robot's programs, and the record for people.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Calibration {
     /// Where the camera is.
     pub camera: CameraMount,

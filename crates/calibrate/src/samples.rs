@@ -6,6 +6,7 @@ use std::collections::HashSet;
 
 /// One place, as the camera saw it and as the robot touched it.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct PointSample {
     /// Its name, in messages and results.
     pub id: String,
@@ -15,8 +16,24 @@ pub struct PointSample {
     pub robot: Position<RobotFrame>,
 }
 
+impl PointSample {
+    /// A sample of this name.
+    pub fn new(
+        id: impl Into<String>,
+        camera: Position<CameraFrame>,
+        robot: Position<RobotFrame>,
+    ) -> Self {
+        Self {
+            id: id.into(),
+            camera,
+            robot,
+        }
+    }
+}
+
 /// One stop of the robot: where its flange was, and where the camera saw the target.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct PoseSample {
     /// Its name, in messages and results.
     pub id: String,
@@ -24,6 +41,21 @@ pub struct PoseSample {
     pub robot_from_flange: Transform<RobotFrame, FlangeFrame>,
     /// The target's pose, as the camera saw it.
     pub camera_from_target: Transform<CameraFrame, TargetFrame>,
+}
+
+impl PoseSample {
+    /// A sample of this name.
+    pub fn new(
+        id: impl Into<String>,
+        robot_from_flange: Transform<RobotFrame, FlangeFrame>,
+        camera_from_target: Transform<CameraFrame, TargetFrame>,
+    ) -> Self {
+        Self {
+            id: id.into(),
+            robot_from_flange,
+            camera_from_target,
+        }
+    }
 }
 
 pub(crate) fn check_points(samples: &[PointSample], needed: usize) -> Result<(), CalibrateError> {

@@ -103,11 +103,8 @@ impl<'a> AppleClouds<'a> {
             .filter_map(index_of)
             .collect();
         let branch: Vec<u32> = answer.evidence.branch.iter().filter_map(index_of).collect();
-        let mark = CloudMark {
-            surface: &surface,
-            branch: &branch,
-            arrow: answer.pick.map(|pick| (center, pick.foot.point())),
-        };
+        let mut mark = CloudMark::new(&surface, &branch);
+        mark.arrow = answer.pick.map(|pick| (center, pick.foot.point()));
         Some(colored_cloud(
             &self.points.select(kept.iter().copied()),
             &[mark],

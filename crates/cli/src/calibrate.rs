@@ -95,12 +95,10 @@ pub(crate) fn run(arguments: &CalibrateArguments, terminal: Terminal) -> anyhow:
             id.clone_from(given);
         }
     }
-    let options = Options {
-        fruit_distance_m: arguments.fruit_distance,
-        translation_tolerance_m: arguments.tolerance_mm * 1e-3,
-        rotation_tolerance_rad: arguments.tolerance_deg.to_radians(),
-        ..Options::default()
-    };
+    let mut options = Options::default();
+    options.fruit_distance_m = arguments.fruit_distance;
+    options.translation_tolerance_m = arguments.tolerance_mm * 1e-3;
+    options.rotation_tolerance_rad = arguments.tolerance_deg.to_radians();
     let kind = arguments
         .kind
         .map_or_else(|| CalibrationKind::of(&set.samples), KindName::kind);

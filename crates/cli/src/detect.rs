@@ -166,10 +166,9 @@ fn detect(
     if let Some(name) = &picture {
         let marks: Vec<BoxMark> = boxes
             .into_iter()
-            .map(|bounds| BoxMark {
-                caption: format!("{:.2}", bounds.score),
-                kind: BoxKind::Detected,
-                bounds,
+            .map(|bounds| {
+                let caption = format!("{:.2}", bounds.score);
+                BoxMark::new(bounds, BoxKind::Detected).captioned(caption)
             })
             .collect();
         draw_boxes(&pixels, &marks)?.write(output.file(name))?;
@@ -203,26 +202,21 @@ fn picture_name(name: &str) -> String {
 fn coco(records: &[ImageRecord], images: &[NamedImage]) -> CocoDataset {
     let pairs = records.iter().zip(images).zip(1..);
     let images = pairs.map(|((record, image), id)| {
-        let boxes = record.detections.iter().map(|d| LabelledBox {
-            class_number: Some(1),
-            class_name: Some(CLASS.to_owned()),
-            ..LabelledBox::new(d.to_pixel_box(CLASS))
+        let boxes = record.detections.iter().map(|d| {
+            let mut label = LabelledBox::new(d.to_pixel_box(CLASS));
+            label.class_number = Some(1);
+            label.class_name = Some(CLASS.to_owned());
+            label
         });
-        CocoImage {
-            id,
-            file_name: image.file_name.clone(),
-            width: record.width,
-            height: record.height,
-            boxes: boxes.collect(),
-        }
+        let mut labelled = CocoImage::new(id, &image.file_name);
+        (labelled.width, labelled.height) = (record.width, record.height);
+        labelled.boxes = boxes.collect();
+        labelled
     });
-    CocoDataset {
-        images: images.collect(),
-        categories: vec![CocoCategory {
-            id: 1,
-            name: CLASS.to_owned(),
-        }],
-    }
+    let mut dataset = CocoDataset::default();
+    dataset.images = images.collect();
+    dataset.categories = vec![CocoCategory::new(1, CLASS)];
+    dataset
 }
 
 /// Claims the names of the files that this run writes.

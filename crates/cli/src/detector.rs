@@ -53,6 +53,11 @@ pub(crate) enum Model {
 }
 
 impl DetectorArguments {
+    /// The inference backend.
+    pub(crate) fn runtime(&self) -> &RuntimeChoice {
+        self.settings.runtime()
+    }
+
     /// Opens the detector.
     pub(crate) fn open(&self) -> Result<Box<dyn Detector>, DetectError> {
         self.settings
@@ -79,17 +84,17 @@ impl DetectorSettings {
         class: Option<ClassChoice>,
         threshold: Option<f64>,
     ) -> DetectorOptions {
-        DetectorOptions {
-            model: match model {
+        DetectorOptions::default().with(|o| {
+            o.model = match model {
                 Model::BuiltIn => None,
                 Model::File(path) => Some(path.clone()),
-            },
-            runtime: self.runtime.clone(),
-            class,
-            threshold,
-            nms_iou: self.nms_iou,
-            tiling: self.tiles,
-        }
+            };
+            o.runtime = self.runtime.clone();
+            o.class = class;
+            o.threshold = threshold;
+            o.nms_iou = self.nms_iou;
+            o.tiling = self.tiles;
+        })
     }
 }
 
@@ -207,17 +212,17 @@ mod tests {
     fn each_choice_arrives() {
         let line = "--model m.onnx --runtime ./libonnxruntime.so --class 47 --threshold 0.3 --nms-iou 0.45 --tiles 3x2";
         let line: Vec<&str> = line.split(' ').collect();
-        let expected = DetectorOptions {
-            model: Some("m.onnx".into()),
-            runtime: RuntimeChoice::Library("./libonnxruntime.so".into()),
-            class: Some(ClassChoice::Number(47)),
-            threshold: Some(0.3),
-            nms_iou: Some(0.45),
-            tiling: TilingChoice::Grid {
+        let expected = DetectorOptions::default().with(|o| {
+            o.model = Some("m.onnx".into());
+            o.runtime = RuntimeChoice::Library("./libonnxruntime.so".into());
+            o.class = Some(ClassChoice::Number(47));
+            o.threshold = Some(0.3);
+            o.nms_iou = Some(0.45);
+            o.tiling = TilingChoice::Grid {
                 columns: 3,
                 rows: 2,
-            },
-        };
+            };
+        });
         assert_eq!(options(&line).unwrap(), expected);
         let named = options(&["--class", "apple", "--runtime", "embedded"]).unwrap();
         assert_eq!(named.class, Some(ClassChoice::Name("apple".to_owned())));

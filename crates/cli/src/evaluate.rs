@@ -1,4 +1,5 @@
-//! `pomona evaluate`: methods against truth, fitted radii against calipers, and detectors against labels.
+//! `pomona evaluate`: methods against truth and against strokes of wood, fitted radii against calipers, and detectors
+//! and segmenters against labels.
 
 mod arguments;
 mod calipers;
@@ -7,6 +8,10 @@ mod detection;
 mod detection_text;
 mod methods;
 mod modes;
+mod real;
+mod real_arguments;
+mod real_pictures;
+mod real_text;
 mod results;
 mod robot;
 mod robot_text;
@@ -48,6 +53,9 @@ pub(crate) fn run(arguments: &EvaluateArguments, terminal: Terminal) -> anyhow::
     }
     let pickers = pickers(arguments)?;
     let methods: Vec<&dyn PickMethod> = pickers.iter().map(|p| p as &dyn PickMethod).collect();
+    if arguments.real.real {
+        return real::run(arguments, &methods, terminal);
+    }
     match &arguments.calipers {
         Some(file) => calipers::run(arguments, file, &methods, terminal),
         None => suites::run(arguments, &methods, terminal),
@@ -60,6 +68,7 @@ mod tests {
     use crate::pick::PICKS;
     use crate::settings::SettingValues;
     use detection::DetectionArguments;
+    use real_arguments::RealArguments;
     use results::{REPORT, Results};
     use robot::RobotArguments;
     use segmentation::SegmentationArguments;
@@ -84,6 +93,7 @@ mod tests {
                 calibration_noise_mm: 1.0,
                 calibration_poses: 15,
             },
+            real: RealArguments::default(),
             detection: DetectionArguments::default(),
             segmentation: SegmentationArguments::default(),
             settings: SettingValues::default(),

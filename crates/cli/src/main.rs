@@ -25,6 +25,7 @@ mod settings;
 mod summary;
 mod table;
 mod terminal;
+mod wood;
 
 use std::io::ErrorKind;
 use std::process::ExitCode;

@@ -30,7 +30,7 @@ pub(crate) fn run(arguments: &PickArguments, terminal: Terminal) -> anyhow::Resu
         .fuse
         .then(|| fuse::claim(&arguments.frames, &arguments.out))
         .transpose()?;
-    let jobs = jobs(&arguments.frames, &arguments.out, arguments.boxes.is_some())?;
+    let jobs = jobs(&arguments.frames, &arguments.out, arguments.of_one_frame())?;
     let poses = poses(arguments, &session, &jobs)?;
 
     let answers = answer_all(arguments, &session, &jobs, &poses, terminal)?;

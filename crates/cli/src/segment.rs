@@ -10,7 +10,7 @@ use crate::summary::plural;
 use crate::terminal::{self, Terminal, one_line};
 use clap::Args;
 use pomona_cloud::{ColorImage, GrayImage};
-use pomona_segment::{Classes, Role, Segmentation, Segmenter};
+use pomona_segment::{Classes, Role, Segmenter};
 use pomona_view::tint;
 use record::{ClassesRecord, SegmentedImage};
 use std::path::PathBuf;
@@ -128,13 +128,13 @@ fn segment(
         .map_err(|e| anyhow::anyhow!("{}: {e}", image.path.display()))?;
     let segment_ms = milliseconds(begin);
     let likeliest = seen.likeliest();
-    let gray = |values: Vec<u8>| GrayImage {
+    let classes = GrayImage {
         width: seen.width(),
         height: seen.height(),
-        values,
+        values: likeliest.clone(),
     };
-    gray(likeliest.clone()).write(files.file(&names.classes))?;
-    gray(wood_bytes(&seen)).write(files.file(&names.wood))?;
+    classes.write(files.file(&names.classes))?;
+    seen.mask(Role::Wood).write(files.file(&names.wood))?;
     if let Some(name) = &names.picture {
         let roles = seen.classes().roles();
         let color = |k: usize| color(*roles.get(usize::from(likeliest[k]))?);
@@ -151,12 +151,6 @@ fn segment(
         picture: names.picture,
         segment_ms,
     })
-}
-
-/// The probability of wood, 0 to 255; 0 where unseen.
-fn wood_bytes(seen: &Segmentation) -> Vec<u8> {
-    let byte = |p: &f32| (p * 255.0).round() as u8;
-    seen.role(Role::Wood).iter().map(byte).collect()
 }
 
 /// Of all pixels, the share of each class that is the likeliest there.

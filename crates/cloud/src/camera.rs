@@ -17,6 +17,7 @@ use serde::{Deserialize, Serialize};
 /// on the ray of pixel (u, v) is z·((u − cx)/fx, (v − cy)/fy, 1).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
+#[non_exhaustive]
 pub struct Camera {
     /// Image width in pixels.
     pub width: usize,
@@ -40,6 +41,40 @@ pub struct Camera {
 }
 
 impl Camera {
+    /// A camera without distortion: image size, focal lengths and principal point, each along x and y, in pixels.
+    ///
+    /// Its depth images count millimetres, and its frame is `camera_color_optical_frame`.
+    pub fn new(size: [usize; 2], focal: [f64; 2], principal_point: [f64; 2]) -> Self {
+        let ([width, height], [fx, fy], [cx, cy]) = (size, focal, principal_point);
+        Self {
+            width,
+            height,
+            fx,
+            fy,
+            cx,
+            cy,
+            depth_scale: 0.001,
+            frame_id: "camera_color_optical_frame".to_owned(),
+            distortion: None,
+        }
+    }
+
+    /// This camera with another image size, focal lengths and principal point, as in [`Camera::new`].
+    #[must_use]
+    pub fn with_intrinsics(
+        self,
+        size: [usize; 2],
+        focal: [f64; 2],
+        principal_point: [f64; 2],
+    ) -> Self {
+        Self {
+            depth_scale: self.depth_scale,
+            frame_id: self.frame_id,
+            distortion: self.distortion,
+            ..Self::new(size, focal, principal_point)
+        }
+    }
+
     /// Checks that the camera can be computed with: sizes, focal lengths and depth
     /// scale positive, all numbers finite, a known distortion that can be inverted
     /// at the corners and the edges' middles.

@@ -6,6 +6,7 @@ use nalgebra::Point3;
 /// All arrays have the same length. An organised cloud (`width` and `height`
 /// set, `width * height` points, row by row) keeps pixels without a reading as NaN points.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct PointCloud {
     /// x coordinates.
     pub x: Vec<f32>,
@@ -23,6 +24,16 @@ impl PointCloud {
     /// An empty cloud.
     pub fn new() -> Self {
         Self::default()
+    }
+
+    /// A cloud without colours, not organised; the three arrays have the same length.
+    pub fn from_coordinates(x: Vec<f32>, y: Vec<f32>, z: Vec<f32>) -> Self {
+        Self {
+            x,
+            y,
+            z,
+            ..Self::default()
+        }
     }
 
     /// Number of points, those that are NaN included.

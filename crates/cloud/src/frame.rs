@@ -10,6 +10,7 @@ use std::path::{Path, PathBuf};
 
 /// One RGB-D frame: colour, depth registered to it, camera, and boxes where they are known.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Frame {
     /// Name of the frame; the folder's name where it was read from one.
     pub id: String,
@@ -35,6 +36,22 @@ const CAMERA: &[&str] = &[
 const WRITTEN: [&str; 4] = ["color.png", "depth.png", "camera.json", "boxes.xml"];
 
 impl Frame {
+    /// A frame without boxes.
+    pub fn new(
+        id: impl Into<String>,
+        camera: Camera,
+        color: ColorImage,
+        depth: DepthImage,
+    ) -> Self {
+        Self {
+            id: id.into(),
+            camera,
+            color,
+            depth,
+            boxes: None,
+        }
+    }
+
     /// The names of the colour image in a frame's folder; the first that is there is read.
     pub const COLOR_FILES: [&str; 3] = ["color.png", "color.jpg", "color.jpeg"];
 
@@ -61,13 +78,7 @@ impl Frame {
             CAMERA,
             "camera.json (or camera.yaml, intrinsic.json)",
         )?)?;
-        let mut frame = Self {
-            id: folder_name(dir),
-            camera,
-            color,
-            depth,
-            boxes: None,
-        };
+        let mut frame = Self::new(folder_name(dir), camera, color, depth);
         frame.validate_as(dir)?;
         if let Some(path) = present(dir, &Self::BOX_FILES) {
             frame.boxes = Some(read_boxes(path, frame.color.width, frame.color.height)?);

@@ -7,30 +7,18 @@
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! // A wall 0.9 m away, seen by a small camera, and a box drawn on it.
-//! let frame = Frame {
-//!     id: "row-7".to_owned(),
-//!     camera: Camera {
-//!         width: 64,
-//!         height: 48,
-//!         fx: 60.0,
-//!         fy: 60.0,
-//!         cx: 31.5,
-//!         cy: 23.5,
-//!         depth_scale: 0.001,
-//!         frame_id: "camera_color_optical_frame".to_owned(),
-//!         distortion: None,
-//!     },
-//!     color: ColorImage::filled(64, 48, [180, 30, 40]),
-//!     depth: DepthImage { width: 64, height: 48, readings: vec![900; 64 * 48] },
-//!     boxes: Some(vec![PixelBox {
-//!         name: "2118".to_owned(),
-//!         x_min: 20.0,
-//!         y_min: 10.0,
-//!         x_max: 30.0,
-//!         y_max: 20.0,
-//!         score: 1.0,
-//!     }]),
-//! };
+//! let camera = Camera::new([64, 48], [60.0, 60.0], [31.5, 23.5]);
+//! let color = ColorImage::filled(64, 48, [180, 30, 40]);
+//! let depth = DepthImage { width: 64, height: 48, readings: vec![900; 64 * 48] };
+//! let mut frame = Frame::new("row-7", camera, color, depth);
+//! frame.boxes = Some(vec![PixelBox {
+//!     name: "2118".to_owned(),
+//!     x_min: 20.0,
+//!     y_min: 10.0,
+//!     x_max: 30.0,
+//!     y_max: 20.0,
+//!     score: 1.0,
+//! }]);
 //!
 //! // Written to a folder and read back.
 //! # let parent = tempfile::tempdir()?;

@@ -17,20 +17,19 @@ pub(crate) fn detect_with(data: &[u8]) -> Option<Vec<Detection>> {
     let mut bytes = Bytes { data };
     let network = AnyNetwork::new(&mut bytes);
     let description = description(&mut bytes);
-    let options = DetectorOptions {
-        class: class(&mut bytes),
-        threshold: bytes.option(Bytes::share),
-        nms_iou: bytes.option(Bytes::share),
-        tiling: match bytes.below(4) {
+    let options = DetectorOptions::default().with(|o| {
+        o.class = class(&mut bytes);
+        o.threshold = bytes.option(Bytes::share);
+        o.nms_iou = bytes.option(Bytes::share);
+        o.tiling = match bytes.below(4) {
             0 => TilingChoice::Whole,
             1 => TilingChoice::Grid {
                 columns: bytes.below(5),
                 rows: 1 + bytes.below(4),
             },
             _ => TilingChoice::Automatic,
-        },
-        ..DetectorOptions::default()
-    };
+        };
+    });
     let mut image = ColorImage::filled(bytes.below(150), bytes.below(150), [9, 99, 200]);
     if bytes.below(16) == 0 {
         image.pixels.pop();
@@ -264,44 +263,43 @@ fn description(bytes: &mut Bytes<'_>) -> ModelDescription {
     let rare = |bytes: &mut Bytes<'_>| bytes.below(12) == 0;
     let side = |bytes: &mut Bytes<'_>| [32, 64, 96, 1, 0, 50][bytes.below(6)];
     let positive = |bytes: &mut Bytes<'_>| bytes.number().abs();
-    ModelDescription {
-        family: rare(bytes).then(|| {
-            let families = [
-                Family::YoloV3,
-                Family::YoloV3Nms,
-                Family::YoloV5,
-                Family::YoloV8,
-                Family::YoloX,
-            ];
-            families[bytes.below(families.len())]
-        }),
-        classes: rare(bytes).then(|| {
-            let names = 0..bytes.below(5);
-            names.map(|k| format!("class {k}")).collect()
-        }),
-        class: rare(bytes).then(|| ClassChoice::Number(bytes.below(3))),
-        input_size: rare(bytes).then(|| [side(bytes), side(bytes)]),
-        strides: rare(bytes).then(|| (0..bytes.below(4)).map(|_| bytes.side()).collect()),
-        anchors: rare(bytes).then(|| {
-            let anchors = 0..3 * bytes.below(4);
-            anchors
-                .map(|_| [positive(bytes), positive(bytes)])
-                .collect()
-        }),
-        channels: bytes.option(|_| ChannelOrder::Bgr),
-        scale: rare(bytes).then(|| bytes.number()),
-        mean: rare(bytes).then(|| [0; 3].map(|_| bytes.number())),
-        std: rare(bytes).then(|| [0; 3].map(|_| bytes.number())),
-        padding: bytes
-            .option(|bytes| [Padding::Center, Padding::TopLeft, Padding::Stretch][bytes.below(3)]),
-        fill: bytes.option(Bytes::byte),
-        coordinates: bytes
-            .option(|bytes| [Coordinates::Pixels, Coordinates::Normalized][bytes.below(2)]),
-        threshold: rare(bytes).then(|| bytes.share()),
-        nms_iou: rare(bytes).then(|| bytes.share()),
-        tile: bytes.option(|bytes| 30 + bytes.below(200)),
-        tile_overlap: rare(bytes).then(|| bytes.below(120)),
-        whole_pass: bytes.option(|bytes| bytes.below(2) == 0),
-        ..ModelDescription::default()
-    }
+    let mut description = ModelDescription::default();
+    description.family = rare(bytes).then(|| {
+        let families = [
+            Family::YoloV3,
+            Family::YoloV3Nms,
+            Family::YoloV5,
+            Family::YoloV8,
+            Family::YoloX,
+        ];
+        families[bytes.below(families.len())]
+    });
+    description.classes = rare(bytes).then(|| {
+        let names = 0..bytes.below(5);
+        names.map(|k| format!("class {k}")).collect()
+    });
+    description.class = rare(bytes).then(|| ClassChoice::Number(bytes.below(3)));
+    description.input_size = rare(bytes).then(|| [side(bytes), side(bytes)]);
+    description.strides = rare(bytes).then(|| (0..bytes.below(4)).map(|_| bytes.side()).collect());
+    description.anchors = rare(bytes).then(|| {
+        let anchors = 0..3 * bytes.below(4);
+        anchors
+            .map(|_| [positive(bytes), positive(bytes)])
+            .collect()
+    });
+    description.channels = bytes.option(|_| ChannelOrder::Bgr);
+    description.scale = rare(bytes).then(|| bytes.number());
+    description.mean = rare(bytes).then(|| [0; 3].map(|_| bytes.number()));
+    description.std = rare(bytes).then(|| [0; 3].map(|_| bytes.number()));
+    description.padding =
+        bytes.option(|bytes| [Padding::Center, Padding::TopLeft, Padding::Stretch][bytes.below(3)]);
+    description.fill = bytes.option(Bytes::byte);
+    description.coordinates =
+        bytes.option(|bytes| [Coordinates::Pixels, Coordinates::Normalized][bytes.below(2)]);
+    description.threshold = rare(bytes).then(|| bytes.share());
+    description.nms_iou = rare(bytes).then(|| bytes.share());
+    description.tile = bytes.option(|bytes| 30 + bytes.below(200));
+    description.tile_overlap = rare(bytes).then(|| bytes.below(120));
+    description.whole_pass = bytes.option(|bytes| bytes.below(2) == 0);
+    description
 }

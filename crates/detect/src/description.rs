@@ -28,6 +28,7 @@ use std::path::{Path, PathBuf};
 /// ```
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
+#[non_exhaustive]
 pub struct ModelDescription {
     /// The model's name, for the record.
     pub name: Option<String>,
@@ -111,15 +112,14 @@ impl ModelDescription {
 
     /// How images are prepared for a model of this family.
     pub fn preparation(&self, family: Family) -> Preparation {
-        let usual = family.preparation();
-        Preparation {
-            channels: self.channels.unwrap_or(usual.channels),
-            scale: self.scale.unwrap_or(usual.scale),
-            mean: self.mean.unwrap_or(usual.mean),
-            std: self.std.unwrap_or(usual.std),
-            padding: self.padding.unwrap_or(usual.padding),
-            fill: self.fill.unwrap_or(usual.fill),
-        }
+        let mut preparation = family.preparation();
+        preparation.channels = self.channels.unwrap_or(preparation.channels);
+        preparation.scale = self.scale.unwrap_or(preparation.scale);
+        preparation.mean = self.mean.unwrap_or(preparation.mean);
+        preparation.std = self.std.unwrap_or(preparation.std);
+        preparation.padding = self.padding.unwrap_or(preparation.padding);
+        preparation.fill = self.fill.unwrap_or(preparation.fill);
+        preparation
     }
 
     /// How images are tiled for the model, by this choice.

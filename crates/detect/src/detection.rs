@@ -68,6 +68,7 @@ pub trait Detector: Send + Sync {
 
 /// Which detector ran, and how: part of the output, so that a result can be traced.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
+#[non_exhaustive]
 pub struct DetectorReport {
     /// Name of the detector or of the model's file.
     pub name: String,
@@ -80,4 +81,14 @@ pub struct DetectorReport {
     /// What was assumed about the model, and how to state it.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<String>,
+}
+
+impl DetectorReport {
+    /// The report of a detector of this name, without further information.
+    pub fn new(name: impl Into<String>) -> Self {
+        Self {
+            name: name.into(),
+            ..Self::default()
+        }
+    }
 }

@@ -52,17 +52,17 @@ impl Family {
 
     /// How images are prepared for it where its description does not say.
     pub fn preparation(self) -> Preparation {
-        let usual = Preparation::default();
+        let mut preparation = Preparation::default();
         match self {
-            Self::YoloV3 | Self::YoloV3Nms => Preparation { fill: 128, ..usual },
-            Self::YoloV5 | Self::YoloV8 => usual,
-            Self::YoloX => Preparation {
-                channels: ChannelOrder::Bgr,
-                scale: 1.0,
-                padding: Padding::TopLeft,
-                ..usual
-            },
+            Self::YoloV3 | Self::YoloV3Nms => preparation.fill = 128,
+            Self::YoloV5 | Self::YoloV8 => {}
+            Self::YoloX => {
+                preparation.channels = ChannelOrder::Bgr;
+                preparation.scale = 1.0;
+                preparation.padding = Padding::TopLeft;
+            }
         }
+        preparation
     }
 
     /// Side in pixels of its square input where neither model nor description says.

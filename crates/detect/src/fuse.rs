@@ -17,6 +17,7 @@ const LEAST_SCORE: f64 = 1e-6;
 
 /// What was seen in one window of an image.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct View {
     /// The window.
     pub window: PixelWindow,

@@ -26,7 +26,7 @@
 //!     }
 //!
 //!     fn report(&self) -> DetectorReport {
-//!         DetectorReport { name: "redness".to_owned(), ..DetectorReport::default() }
+//!         DetectorReport::new("redness")
 //!     }
 //! }
 //!

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 /// How to open a detector.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct DetectorOptions {
     /// The model, ONNX; the built-in one where absent. `MODEL.toml` beside `MODEL.onnx` is read.
     pub model: Option<PathBuf>,
@@ -17,4 +18,13 @@ pub struct DetectorOptions {
     pub nms_iou: Option<f64>,
     /// How a large image is tiled.
     pub tiling: TilingChoice,
+}
+
+impl DetectorOptions {
+    /// These options after a change.
+    #[must_use]
+    pub fn with(mut self, change: impl FnOnce(&mut Self)) -> Self {
+        change(&mut self);
+        self
+    }
 }

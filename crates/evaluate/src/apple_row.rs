@@ -24,6 +24,7 @@ pub const NO_BOX: &str = "no_box";
 ///
 /// Metres and radians; what is not known is absent.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct AppleRow {
     /// Suite, or folder of frames.
     pub suite: String,

@@ -88,11 +88,7 @@ mod tests {
     #[test]
     fn a_row_for_each_apple_and_a_cell_for_each_column() {
         let subjects = Subject::named("lab15", Some(1)).unwrap();
-        let picker = Picker::new(Config {
-            method: Method::Paper,
-            ..Config::default()
-        })
-        .unwrap();
+        let picker = Picker::new(Config::default().with(|c| c.method = Method::Paper)).unwrap();
         let evaluation = evaluate(&subjects, &[&picker], 0, &|| {}).unwrap();
         let text = apples_csv(&evaluation).unwrap();
         let mut reader = csv::Reader::from_reader(text.as_bytes());

@@ -5,6 +5,7 @@ mod measure;
 mod rigid;
 mod table;
 
+pub(crate) use alignment::SharedCenters;
 pub use alignment::{AlignedApple, Alignment};
 pub use measure::{
     CALIPER_SCHEMA, CaliperFrame, CaliperReport, CaliperResult, CaliperRow, measure_calipers,

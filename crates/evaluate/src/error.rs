@@ -30,6 +30,9 @@ pub enum EvaluateError {
     /// A frame could not be read.
     #[error(transparent)]
     Frame(#[from] pomona_cloud::CloudError),
+    /// A file of strokes could not be read.
+    #[error(transparent)]
+    Labels(#[from] pomona_labels::LabelsError),
     /// A method could not work on a frame at all.
     #[error(transparent)]
     Pick(#[from] pomona::PickError),

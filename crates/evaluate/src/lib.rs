@@ -6,7 +6,7 @@
 //!
 //! // The first two of the paper's fifteen laboratory orientations, rendered in memory.
 //! let subjects = Subject::named("lab15", Some(2))?;
-//! let picker = Picker::new(Config { method: Method::Paper, ..Config::default() })?;
+//! let picker = Picker::new(Config::default().with(|c| c.method = Method::Paper))?;
 //!
 //! let evaluation = evaluate(&subjects, &[&picker], 0, &|| {})?;
 //!
@@ -32,6 +32,7 @@
 //! - [`report_page`] and [`apples_csv`] are the content of `report.html` and `apples.csv`.
 //! - [`measure_calipers`] compares fitted radii with measured diameters on real frames, and aligns the apples of two
 //!   frames of one tree.
+//! - [`measure_real`] compares directions on real frames with strokes of wood drawn by eye.
 //!
 //! # Not here
 //!
@@ -52,6 +53,7 @@ mod evaluation;
 mod matching;
 mod method;
 mod paper_figures;
+mod real;
 mod report;
 mod robot;
 mod run;
@@ -67,7 +69,13 @@ pub use calipers::{
 pub use error::EvaluateError;
 pub use evaluation::{Evaluation, SCHEMA};
 pub use method::PickMethod;
-pub use report::{caliper_page, report_page};
+pub use real::{
+    AppleWood, AppleWoodTable, ConfidenceShare, FrameAgreement, PerturbedAgreement, REAL_SCHEMA,
+    RealAgreement, RealFigures, RealFrame, RealFrameFigures, RealFrameSummary, RealOptions,
+    RealReliability, RealReport, RealResult, RealRow, SeenFigures, UnseenFigures, Verdict,
+    WoodSeen, measure_real, read_real_frames, real_csv,
+};
+pub use report::{caliper_page, real_page, report_page};
 pub use robot::{
     BaseRow, CalibrationNoise, DirectionTerms, PlannedRow, PositionTerms, RobotTrial, Term,
 };

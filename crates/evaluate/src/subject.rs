@@ -141,11 +141,7 @@ impl Subject {
     pub fn load(&self) -> Result<Scene, EvaluateError> {
         match &self.source {
             Source::Case(case) => Ok(case.scene()),
-            Source::Folder(path) => Ok(Scene {
-                frame: Frame::read(path)?,
-                truth: Truth::read(path)?,
-                classes: None,
-            }),
+            Source::Folder(path) => Ok(Scene::new(Frame::read(path)?, Truth::read(path)?)),
         }
     }
 }

@@ -66,6 +66,7 @@ fn read_remedy(source: &io::Error) -> &'static str {
 
 /// What a parser found wrong in bytes whose file it does not know.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Malformed {
     /// Where: a line, a byte, a field.
     pub place: String,

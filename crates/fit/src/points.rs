@@ -7,6 +7,7 @@ use thiserror::Error;
 /// Coordinate arrays of different length were given as one set of points.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 #[error("coordinate arrays differ in length: {x} x, {y} y, {z} z")]
+#[non_exhaustive]
 pub struct PointsError {
     /// Length of the array of x.
     pub x: usize,

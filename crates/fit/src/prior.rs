@@ -3,6 +3,7 @@ use thiserror::Error;
 /// A Gaussian prior whose mean or standard deviation is not a positive finite number.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[error("a radius of {mean} ± {sigma}: give two positive finite numbers")]
+#[non_exhaustive]
 pub struct PriorError {
     /// Mean given.
     pub mean: f64,

@@ -19,7 +19,7 @@
 //!     detections: vec![vec![seen(1.0, 0.9), seen(50.0, 0.6)]],
 //! };
 //!
-//! let options = DetectionOptions { threshold: 0.5, seed: 0 };
+//! let options = DetectionOptions::new(0.5, 0);
 //! let (evaluation, _) = evaluate_detections(&dataset, &[source], &options, &|| {})?;
 //! let result = &evaluation.results[0];
 //! assert_eq!(result.recall.unwrap().value, 1.0);

@@ -6,8 +6,9 @@ use rand_core::SeedableRng;
 use rayon::prelude::*;
 use serde::Serialize;
 
-/// A figure with its 95 % interval: percentile bootstrap over images.
+/// A figure with its 95 % interval: percentile bootstrap over images, or over the photographs that they are cut from.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema), schemars(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct Estimate {
     /// The figure.

@@ -86,6 +86,7 @@ impl NetworkError {
             place,
             problem,
             remedy,
+            ..
         } = fault;
         Self::Model {
             model: model.into(),

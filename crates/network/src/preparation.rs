@@ -28,6 +28,7 @@ pub enum Padding {
 ///
 /// A channel's value, 0 to 255, becomes `(value * scale - mean) / std`.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Preparation {
     /// Order of the channels.
     pub channels: ChannelOrder,

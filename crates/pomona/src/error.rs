@@ -21,6 +21,20 @@ pub enum PickError {
         /// What is wrong with it.
         source: Box<pomona_cloud::CloudError>,
     },
+    /// The mask of wood has another size than the frame's images.
+    #[error(
+        "frame '{frame}': the mask of wood has {} x {} pixels, the images have {} x {}: \
+         give a mask of this frame's colour image at its full size",
+        found.0, found.1, expected.0, expected.1
+    )]
+    WoodSize {
+        /// The frame's id.
+        frame: String,
+        /// Width and height of the mask, pixels.
+        found: (usize, usize),
+        /// Width and height of the images, pixels.
+        expected: (usize, usize),
+    },
     /// The detector failed.
     #[error("frame '{frame}': {source}")]
     Detect {

@@ -1,6 +1,6 @@
 use crate::error::PickError;
 use crate::optics::Projection;
-use pomona_cloud::{DepthPoints, Frame, PixelWindow};
+use pomona_cloud::{DepthPoints, Frame, GrayImage, PixelWindow};
 use std::sync::OnceLock;
 
 /// A frame whose parts agree: checked once, its depth image deprojected at most once, for all stages.
@@ -9,6 +9,7 @@ pub struct CheckedFrame<'a> {
     frame: &'a Frame,
     projection: Projection<'a>,
     points: OnceLock<DepthPoints>,
+    wood: Option<&'a GrayImage>,
 }
 
 impl<'a> CheckedFrame<'a> {
@@ -38,7 +39,33 @@ impl<'a> CheckedFrame<'a> {
             frame,
             projection,
             points: OnceLock::new(),
+            wood: None,
         })
+    }
+
+    /// The frame with the probability of wood (× 255) of each pixel of its colour image, as a segmenter finds it.
+    ///
+    /// # Errors
+    ///
+    /// [`PickError::WoodSize`] where the mask has not the size of the frame's images.
+    pub fn with_wood(self, wood: &'a GrayImage) -> Result<Self, PickError> {
+        let (expected, found) = (self.size(), (wood.width, wood.height));
+        if found != expected || wood.values.len() != wood.width * wood.height {
+            return Err(PickError::WoodSize {
+                frame: self.frame.id.clone(),
+                found,
+                expected,
+            });
+        }
+        Ok(Self {
+            wood: Some(wood),
+            ..self
+        })
+    }
+
+    /// The probability of wood (× 255) of each pixel, where it is known.
+    pub fn wood(&self) -> Option<&'a GrayImage> {
+        self.wood
     }
 
     /// The frame.
@@ -115,6 +142,24 @@ mod tests {
                 (&filled.x, &filled.y, &filled.z, &filled.pixel)
             );
         }
+    }
+
+    #[test]
+    fn a_mask_of_another_size_is_refused() {
+        let frame = Suite::Lab15.cases().next().unwrap().scene().frame;
+        let (width, height) = (frame.depth.width, frame.depth.height);
+        let mask = |width: usize| GrayImage {
+            width,
+            height,
+            values: vec![0; width * height],
+        };
+        let check = |mask: &GrayImage| CheckedFrame::new(&frame)?.with_wood(mask).map(|_| ());
+        assert!(check(&mask(width)).is_ok());
+        let error = check(&mask(width + 1)).unwrap_err().to_string();
+        assert!(
+            error.contains(&frame.id) && error.contains(&(width + 1).to_string()),
+            "{error}"
+        );
     }
 
     #[test]

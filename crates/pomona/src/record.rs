@@ -31,6 +31,7 @@ pub const SCHEMA: &str = "pomona.picks/1";
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[cfg_attr(test, schemars(deny_unknown_fields))]
+#[non_exhaustive]
 pub struct PicksRecord {
     /// [`SCHEMA`].
     #[cfg_attr(test, schemars(extend("const" = SCHEMA)))]
@@ -53,6 +54,7 @@ pub struct PicksRecord {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[cfg_attr(test, schemars(deny_unknown_fields))]
+#[non_exhaustive]
 pub struct FrameRecord {
     /// Its id: the name of its folder.
     pub id: String,

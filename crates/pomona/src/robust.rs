@@ -9,6 +9,7 @@ mod branch;
 mod confidence;
 mod cross_section;
 mod line_hypothesis;
+mod nearest;
 mod ray;
 mod shell;
 mod silhouette;
@@ -16,6 +17,7 @@ mod sphere;
 mod spheroid;
 mod strips;
 mod viewpoint;
+mod wood;
 
 pub use confidence::CONFIDENCE_MODEL;
 
@@ -33,6 +35,7 @@ use pomona_transforms::{Direction, Position, PositionCovariance};
 use rand_chacha::ChaCha8Rng;
 use shell::{APPLE, Shell};
 use std::time::Instant;
+use wood::{WoodCandidate, WoodSearch};
 
 /// Radii about the centre within which branches are looked for, beside the length along them.
 const SHELL_MARGIN: f64 = 0.4;
@@ -57,8 +60,18 @@ pub(crate) fn pick_apple(
     let mut answer = AppleAnswer::new(id, bounds, Status::Picked);
     let (width, height) = frame.size();
     let window = window_of_box(&answer.bounds, width, height);
-    let found = find_apple(frame, config, window, rng, &mut scratch.apple, &mut answer)
-        .and_then(|apple| find_branch(frame, &config.robust, window, &apple, scratch, &mut answer));
+    let found =
+        find_apple(frame, config, window, rng, &mut scratch.apple, &mut answer).and_then(|apple| {
+            find_branch(
+                frame,
+                &config.robust,
+                window,
+                &apple,
+                rng,
+                scratch,
+                &mut answer,
+            )
+        });
     if let Err(status) = found {
         answer.status = status;
     }
@@ -101,6 +114,7 @@ fn find_branch(
     config: &RobustConfig,
     window: PixelWindow,
     found: &SeenApple,
+    rng: &mut ChaCha8Rng,
     scratch: &mut Scratch,
     answer: &mut AppleAnswer,
 ) -> Result<(), Status> {
@@ -122,9 +136,29 @@ fn find_branch(
         sigma: noise.sigma(apple.center.z),
         config,
     };
-    let ranked = search.candidates(&mut scratch.sections);
-    answer.candidates = ranked.iter().map(branch_candidate).collect();
-    let decided = decide(found, &ranked, config, answer);
+    let ranked = nearest::ranked(&search.candidates(&mut scratch.sections), &apple);
+    let (ranked, decided) = match frame.wood() {
+        None => {
+            answer.candidates = ranked.iter().map(branch_candidate).collect();
+            let decided = decide(found, &ranked, config, answer);
+            (ranked, decided)
+        }
+        Some(wood) => {
+            let search = WoodSearch {
+                wood,
+                depth: &frame.frame().depth,
+                projection,
+                apple,
+                bounds: &answer.bounds,
+                sigma: search.sigma,
+                config,
+            };
+            let ranked = search.candidates(&ranked, rng);
+            answer.candidates = ranked.iter().map(wood_candidate).collect();
+            let decided = decide_by_wood(found, &ranked, config, answer);
+            (ranked.iter().map(|c| c.candidate).collect(), decided)
+        }
+    };
     match (&decided, ranked.first()) {
         (Ok(()), Some(best)) => {
             search.pixels(best, &mut scratch.sections, &mut answer.evidence.branch);
@@ -170,6 +204,45 @@ fn decide(
         ..pick
     });
     Ok(())
+}
+
+/// The same where the colour image tells what is wood.
+fn decide_by_wood(
+    found: &SeenApple,
+    ranked: &[WoodCandidate],
+    config: &RobustConfig,
+    answer: &mut AppleAnswer,
+) -> Result<(), Status> {
+    let Some(best) = ranked.first() else {
+        return Err(confidence::without_candidate(found));
+    };
+    let center = Position::new(found.fit.spheroid.center);
+    let candidate = &best.candidate;
+    answer.confidence = Some(best.nearest);
+    let foot = Position::new(candidate.foot);
+    answer.branch = Some(FittedBranch::new(
+        foot,
+        Direction::from_unit(candidate.tangent),
+        candidate.support.pixels,
+        candidate.rms,
+    ));
+    if best.nearest < config.least_confidence {
+        return Err(wood::refusal(found, ranked));
+    }
+    let pick = PickDirection::new(&center, foot).ok_or(Status::NoBranch)?;
+    let center_sd = (found.fit.covariance.trace() / 3.0).sqrt();
+    answer.pick = Some(PickDirection {
+        sd_rad: Some(center_sd.hypot(candidate.foot_sd) / candidate.distance.max(1e-3)),
+        ..pick
+    });
+    Ok(())
+}
+
+fn wood_candidate(c: &WoodCandidate) -> BranchCandidate {
+    BranchCandidate {
+        wood: Some(c.wood),
+        ..branch_candidate(&c.candidate)
+    }
 }
 
 fn fitted_apple(found: &SeenApple, inliers: usize) -> FittedApple {

@@ -77,6 +77,7 @@ impl Orientation {
 
 /// The paper's lab set-up (section 2.2.6): one apple joined rigidly to one straight branch.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Lab {
     /// Radius of the apple, metres.
     pub apple_radius: f64,

@@ -14,6 +14,7 @@ use rand::RngExt;
 ///
 /// Ranges are drawn from evenly; lengths in metres. The target is apple 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Orchard {
     /// Radius of an apple.
     pub apple_radius: (f64, f64),
@@ -326,15 +327,7 @@ mod tests {
     use crate::visibility::nearest_branch;
 
     fn camera() -> Camera {
-        Camera {
-            width: 320,
-            height: 240,
-            fx: 270.0,
-            fy: 270.0,
-            cx: 159.5,
-            cy: 119.5,
-            ..Shot::paper_camera()
-        }
+        Shot::paper_camera().with_intrinsics([320, 240], [270.0; 2], [159.5, 119.5])
     }
 
     #[test]

@@ -46,6 +46,7 @@ impl Density {
 /// the amounts given here. They were chosen by search, so that the method `paper` scatters about its own
 /// mean as printed: 11.81° ± 13.65°, 63 % within 10°, 85 % within 20°, 3.4 % beyond 50°.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Repeat {
     /// Radius of the apple, metres.
     pub apple_radius: f64,

@@ -9,6 +9,7 @@ use rand::RngExt;
 
 /// A whole tree of a row: a leader, laterals to both sides, spurs full of leaves, 14 to 40 apples.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Row {
     /// Fewest and most apples; between them is drawn.
     pub apples: (usize, usize),

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 /// A frame and its ground truth.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Scene {
     /// What a program is given.
     pub frame: Frame,
@@ -16,6 +17,15 @@ pub struct Scene {
 }
 
 impl Scene {
+    /// A frame and its truth, without the classes of its pixels.
+    pub fn new(frame: Frame, truth: Truth) -> Self {
+        Self {
+            frame,
+            truth,
+            classes: None,
+        }
+    }
+
     /// Writes the frame's files, `classes.png` and `truth.json` into `folder`, whole or not at all.
     ///
     /// The files come together in a folder beside it, which then takes its

@@ -4,6 +4,7 @@ use std::borrow::Cow;
 ///
 /// The fields take effect in the order of their declaration.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Sensor {
     /// Name, as suites and truth files call it.
     pub name: Cow<'static, str>,
@@ -143,6 +144,13 @@ pub struct Bias {
 }
 
 impl Sensor {
+    /// This sensor after a change.
+    #[must_use]
+    pub fn with(mut self, change: impl FnOnce(&mut Self)) -> Self {
+        change(&mut self);
+        self
+    }
+
     /// A camera without errors apart from its unit of 0.1 mm: for tests of geometry.
     pub fn perfect() -> Self {
         Self {

@@ -10,6 +10,7 @@ use pomona_cloud::{Camera, ColorImage, Frame, GrayImage, PixelBox};
 
 /// How a frame is taken of a world.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Shot {
     /// Name of the frame.
     pub id: String,
@@ -43,17 +44,9 @@ impl Shot {
 
     /// The paper's camera: 1280×960 pixels, f = 1080 px.
     pub fn paper_camera() -> Camera {
-        Camera {
-            width: 1280,
-            height: 960,
-            fx: 1080.0,
-            fy: 1080.0,
-            cx: 639.5,
-            cy: 479.5,
-            depth_scale: Sensor::paper().depth_scale,
-            frame_id: "camera_color_optical_frame".into(),
-            distortion: None,
-        }
+        let mut camera = Camera::new([1280, 960], [1080.0; 2], [639.5, 479.5]);
+        camera.depth_scale = Sensor::paper().depth_scale;
+        camera
     }
 
     /// Takes the frame. The bytes depend on the world and on this shot alone.
@@ -66,16 +59,11 @@ impl Shot {
 
     pub(crate) fn develop(&self, world: &World, cast: &Raycast) -> Scene {
         let sensor = &self.sensor;
-        let real = Camera {
-            depth_scale: sensor.depth_scale,
-            distortion: None,
-            ..self.camera.clone()
-        };
-        let stated = Camera {
-            fx: real.fx * (1.0 + sensor.focal_error),
-            fy: real.fy * (1.0 + sensor.focal_error),
-            ..real.clone()
-        };
+        let mut real = self.camera.clone();
+        (real.depth_scale, real.distortion) = (sensor.depth_scale, None);
+        let mut stated = real.clone();
+        stated.fx *= 1.0 + sensor.focal_error;
+        stated.fy *= 1.0 + sensor.focal_error;
         let known = |index: usize| {
             let apple = look_at(
                 world,
@@ -94,13 +82,10 @@ impl Shot {
             })
         };
         let apples: Vec<_> = (0..world.apples.len()).filter_map(known).collect();
-        let frame = Frame {
-            id: self.id.clone(),
-            color: shifted(shade(world, &real, cast), sensor.color_shift_px),
-            depth: sense(world, &real, cast, sensor, self.seed),
-            boxes: Some(apples.iter().map(|a| a.bounds.clone()).collect()),
-            camera: stated.clone(),
-        };
+        let color = shifted(shade(world, &real, cast), sensor.color_shift_px);
+        let depth = sense(world, &real, cast, sensor, self.seed);
+        let mut frame = Frame::new(&self.id, stated.clone(), color, depth);
+        frame.boxes = Some(apples.iter().map(|a| a.bounds.clone()).collect());
         let mut truth = Truth::new(apples);
         truth.seed = Some(self.seed);
         truth.sensor = Some(sensor.name.to_string());

@@ -20,6 +20,7 @@ pub const TRUTH_FILE: &str = "truth.json";
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[cfg_attr(test, schemars(deny_unknown_fields))]
+#[non_exhaustive]
 pub struct Truth {
     /// Always [`TRUTH_SCHEMA`].
     #[cfg_attr(test, schemars(extend("const" = TRUTH_SCHEMA)))]

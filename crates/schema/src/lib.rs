@@ -26,6 +26,7 @@
 //!   calls [`assert_in_docs`].
 //! - Descriptions come from the doc comments, what must be there from `serde`'s attributes, ranges and conditions from
 //!   `schemars`'.
+//! - A field of a type whose crate knows no schemas names the same part or shape here: `#[schemars(with = "…")]`.
 //! - With the environment variable `UPDATE_SCHEMAS` set, [`assert_in_docs`] writes the file in place of comparing it.
 //!
 //! # Not here
@@ -33,8 +34,10 @@
 //! The records; validation of a file against its schema.
 
 mod docs;
+mod parts;
 mod plain;
 mod shapes;
 
 pub use docs::{assert_in_docs, schema_of};
-pub use shapes::{UnitQuaternion, UnitVector};
+pub use parts::{DetectorReport, Proportion, RuntimeReport, SegmenterReport};
+pub use shapes::{Nullable, Share, UnitQuaternion, UnitVector};

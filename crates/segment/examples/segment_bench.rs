@@ -79,7 +79,7 @@ fn run() -> Result<(), Box<dyn std::error::Error>> {
             let pool = rayon::ThreadPoolBuilder::new()
                 .num_threads(job.threads)
                 .build()?;
-            match options.open_network() {
+            match options.open_at(1.0) {
                 Ok(segmenter) => {
                     line.windows = Some(job.runs(&segmenter));
                     runs.push((segmenter, job, pool, lines.len()));

@@ -109,15 +109,14 @@ impl SegmentDescription {
 
     /// How images are prepared for the model.
     pub fn preparation(&self) -> Preparation {
-        let usual = Preparation::default();
-        Preparation {
-            channels: self.channels.unwrap_or(usual.channels),
-            scale: self.scale.unwrap_or(usual.scale),
-            mean: self.mean.unwrap_or(usual.mean),
-            std: self.std.unwrap_or(usual.std),
-            padding: self.padding.unwrap_or(usual.padding),
-            fill: self.fill.unwrap_or(usual.fill),
-        }
+        let mut preparation = Preparation::default();
+        preparation.channels = self.channels.unwrap_or(preparation.channels);
+        preparation.scale = self.scale.unwrap_or(preparation.scale);
+        preparation.mean = self.mean.unwrap_or(preparation.mean);
+        preparation.std = self.std.unwrap_or(preparation.std);
+        preparation.padding = self.padding.unwrap_or(preparation.padding);
+        preparation.fill = self.fill.unwrap_or(preparation.fill);
+        preparation
     }
 
     /// How images are tiled for a model of this input, by this choice.

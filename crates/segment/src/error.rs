@@ -10,6 +10,12 @@ pub(crate) const MOST_CLASSES: usize = 255;
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum SegmentError {
+    /// A zoom that cannot be used.
+    #[error("a zoom of {zoom}: give one from 0.1 to 8; at 2 each pixel becomes two by two")]
+    Zoom {
+        /// The zoom.
+        zoom: f64,
+    },
     /// A model, its description, an inference backend or an image cannot be used.
     #[error(transparent)]
     Network(#[from] NetworkError),

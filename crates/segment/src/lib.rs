@@ -50,6 +50,8 @@
 //!   `pomona-network` loads and runs over tiles of the image. Where tiles overlap, their probabilities are averaged
 //!   with weights that fall to the tiles' edges, so that no seam shows. Small places of a large image are put beside
 //!   each other in few inputs by [`Segmenter::segment_places`].
+//! - [`SegmenterOptions::zooms`] are the scales at which an image is looked at; the result is the mean of all of them.
+//!   [`CloseUps`] look closer at some places only.
 //! - The output is one tensor `[1, C, h, w]`, of logits or of probabilities; with a single channel it is one class
 //!   against the rest. Where h and w are not the input's, it is interpolated.
 //! - [`SegmentDescription`], a small TOML beside the model, states what the model does not tell.
@@ -74,6 +76,7 @@
 mod blend;
 mod built_in;
 mod classes;
+mod close_ups;
 mod collage;
 mod description;
 mod error;
@@ -82,8 +85,10 @@ mod options;
 mod output;
 mod segmentation;
 mod segmenter;
+mod zooms;
 
 pub use classes::{Classes, Role};
+pub use close_ups::CloseUps;
 pub use description::{Activation, SegmentDescription};
 pub use error::SegmentError;
 pub use onnx_segmenter::OnnxSegmenter;

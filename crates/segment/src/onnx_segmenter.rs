@@ -50,6 +50,17 @@ impl OnnxSegmenter {
         description: &SegmentDescription,
         tiling: TilingChoice,
     ) -> Result<Self, SegmentError> {
+        Self::zoomed(network, name, description, tiling, 1.0)
+    }
+
+    /// The same with tiles that are enlarged by `zoom` for the network.
+    pub(crate) fn zoomed(
+        network: Box<dyn Network>,
+        name: impl Into<String>,
+        description: &SegmentDescription,
+        tiling: TilingChoice,
+        zoom: f64,
+    ) -> Result<Self, SegmentError> {
         let name = name.into();
         let model = |fault: Malformed| NetworkError::model(&*name, fault);
         let [width, height] =
@@ -64,10 +75,13 @@ impl OnnxSegmenter {
                 input[0], input[1]
             ));
         }
-        let options = description.tiling(tiling, input);
-        let is_native = options.choice == TilingChoice::Automatic
-            && options.tile == Some(input[0].max(input[1]));
-        let tiling = Tiling::new(&options, input)?;
+        let mut tiles = description.tiling(tiling, input);
+        let zoomed = |length: usize| (length as f64 / zoom).round() as usize;
+        tiles.tile = tiles.tile.map(|tile| zoomed(tile).max(1));
+        tiles.overlap = zoomed(tiles.overlap);
+        let is_native =
+            tiles.choice == TilingChoice::Automatic && tiles.tile == Some(input[0].max(input[1]));
+        let tiling = Tiling::new(&tiles, input)?;
         let preparation = description.preparation();
         let collage_fill = is_native.then_some(preparation.fill);
         let network = ImageNetwork::new(network, input, preparation).map_err(model)?;

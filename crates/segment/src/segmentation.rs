@@ -2,7 +2,7 @@ use crate::{
     classes::{Classes, Role},
     error::SegmentError,
 };
-use pomona_cloud::PixelWindow;
+use pomona_cloud::{GrayImage, PixelWindow};
 
 /// The class number of a pixel that nobody asked about.
 pub const UNSEEN: u8 = 255;
@@ -93,6 +93,16 @@ impl Segmentation {
         }
     }
 
+    /// Moves the probabilities by `share` of the way to those of `other`, which is of the same image and classes; what
+    /// either has not seen is unseen.
+    pub(crate) fn mix(&mut self, other: &Self, share: f32) {
+        for (plane, others) in self.planes.iter_mut().zip(&other.planes) {
+            for (p, q) in plane.iter_mut().zip(others) {
+                *p += share * (q - *p);
+            }
+        }
+    }
+
     /// The same, seen within `windows` only.
     #[must_use]
     pub fn within(mut self, windows: &[PixelWindow]) -> Self {
@@ -159,6 +169,17 @@ impl Segmentation {
             }
         }
         sum
+    }
+
+    /// The probabilities of a role × 255, rounded; 0 where unseen. This is the form of `NAME.wood.png`.
+    pub fn mask(&self, role: Role) -> GrayImage {
+        // A cast of NaN is 0.
+        let byte = |p: &f32| (p * 255.0).round() as u8;
+        GrayImage {
+            width: self.width,
+            height: self.height,
+            values: self.role(role).iter().map(byte).collect(),
+        }
     }
 
     /// The number of the likeliest class of each pixel, row by row, the first of equals; [`UNSEEN`] where unseen.

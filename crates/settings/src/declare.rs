@@ -12,6 +12,9 @@
 ///
 /// `require` may name settings of sections, as in `paper.shell_outer`. Its fields are as visible as the struct, which implements
 /// [`Default`], [`Settings`](crate::Settings), `Serialize` and `Deserialize`.
+///
+/// The struct is `#[non_exhaustive]`, so that settings can be added. Other crates change its defaults:
+/// `Config::default().with(|c| c.method = method)`.
 #[macro_export]
 macro_rules! settings {
     (
@@ -48,6 +51,7 @@ macro_rules! settings {
             $crate::serde::Deserialize,
         )]
         #[serde(crate = "pomona_settings::serde", default, deny_unknown_fields)]
+        #[non_exhaustive]
         $vis struct $name {
             $(
                 $(#[doc = $doc])+

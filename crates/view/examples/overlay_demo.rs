@@ -66,11 +66,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         && let Some(fake) = fakes.iter().flatten().next()
     {
         let cloud = deproject(&depth, &color, &camera);
-        let mark = CloudMark {
-            surface: &fake.surface,
-            branch: &fake.branch,
-            arrow: Some(fake.arrow),
-        };
+        let mut mark = CloudMark::new(&fake.surface, &fake.branch);
+        mark.arrow = Some(fake.arrow);
         let target = fake.sphere.center;
         let eye = target + Vector3::new(0.25, -0.1, -0.4);
         let projection = Projection::Perspective {
@@ -132,10 +129,8 @@ fn fake(number: usize, bounds: &PixelBox, depth: &DepthImage, camera: &Camera) -
 }
 
 fn deproject(depth: &DepthImage, color: &ColorImage, camera: &Camera) -> PointCloud {
-    let mut cloud = PointCloud {
-        colors: Some(color.pixels.clone()),
-        ..PointCloud::default()
-    };
+    let mut cloud = PointCloud::new();
+    cloud.colors = Some(color.pixels.clone());
     for (i, reading) in depth.readings.iter().enumerate() {
         let (u, v) = ((i % depth.width) as f64, (i / depth.width) as f64);
         let z = if *reading == 0 {

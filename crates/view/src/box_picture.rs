@@ -31,6 +31,7 @@ impl BoxKind {
 
 /// A box to be drawn.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct BoxMark {
     /// The box, pixels; the part inside the image is drawn.
     pub bounds: PixelBox,
@@ -38,6 +39,24 @@ pub struct BoxMark {
     pub kind: BoxKind,
     /// A short text above it, such as its score; none where it is empty.
     pub caption: String,
+}
+
+impl BoxMark {
+    /// A box without a caption.
+    pub fn new(bounds: PixelBox, kind: BoxKind) -> Self {
+        Self {
+            bounds,
+            kind,
+            caption: String::new(),
+        }
+    }
+
+    /// This box with a caption.
+    #[must_use]
+    pub fn captioned(mut self, caption: impl Into<String>) -> Self {
+        self.caption = caption.into();
+        self
+    }
 }
 
 /// The image with the boxes drawn over it, later ones over earlier ones.
@@ -51,7 +70,7 @@ pub struct BoxMark {
 ///
 /// let image = ColorImage::filled(64, 48, [90, 120, 80]);
 /// let bounds = PixelBox { name: "0".into(), x_min: 20.0, y_min: 24.0, x_max: 40.0, y_max: 44.0, score: 0.8 };
-/// let mark = BoxMark { bounds, kind: BoxKind::Detected, caption: "0.80".into() };
+/// let mark = BoxMark::new(bounds, BoxKind::Detected).captioned("0.80");
 ///
 /// assert_ne!(draw_boxes(&image, &[mark])?, image);
 /// # Ok::<(), pomona_view::ViewError>(())

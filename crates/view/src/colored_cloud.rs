@@ -6,6 +6,7 @@ use std::f64::consts::{PI, TAU};
 
 /// What is shown of one apple in its cloud; every part may be absent.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct CloudMark<'a> {
     /// Points of the apple's surface, as indices into the cloud; those beyond it are passed over.
     pub surface: &'a [u32],
@@ -14,6 +15,17 @@ pub struct CloudMark<'a> {
     /// Picking direction from the apple's centre O to the foot C on the
     /// branch, metres in the cloud's frame.
     pub arrow: Option<(Point3<f64>, Point3<f64>)>,
+}
+
+impl<'a> CloudMark<'a> {
+    /// A mark without a direction.
+    pub fn new(surface: &'a [u32], branch: &'a [u32]) -> Self {
+        Self {
+            surface,
+            branch,
+            arrow: None,
+        }
+    }
 }
 
 /// Distance between neighbouring rings of points on an arrow, as a fraction of its length.
@@ -65,13 +77,9 @@ pub fn colored_cloud(cloud: &PointCloud, marks: &[CloudMark<'_>]) -> PointCloud 
         painted.arrow(start, end);
     }
     let Painted { x, y, z, colors } = painted;
-    PointCloud {
-        x,
-        y,
-        z,
-        colors: Some(colors),
-        size: None,
-    }
+    let mut colored = PointCloud::from_coordinates(x, y, z);
+    colored.colors = Some(colors);
+    colored
 }
 
 /// Luminance (ITU-R BT.601), kept away from black and white so that it recedes.
@@ -148,13 +156,11 @@ mod tests {
     use super::*;
 
     fn cloud() -> PointCloud {
-        PointCloud {
-            x: vec![0.0, 1.0, f32::NAN, 3.0],
-            y: vec![0.0; 4],
-            z: vec![1.0; 4],
-            colors: Some(vec![[255, 255, 255], [0, 0, 0], [9, 9, 9], [0, 255, 0]]),
-            size: Some((2, 2)),
-        }
+        let x = vec![0.0, 1.0, f32::NAN, 3.0];
+        let mut cloud = PointCloud::from_coordinates(x, vec![0.0; 4], vec![1.0; 4]);
+        cloud.colors = Some(vec![[255, 255, 255], [0, 0, 0], [9, 9, 9], [0, 255, 0]]);
+        cloud.size = Some((2, 2));
+        cloud
     }
 
     #[test]
@@ -212,12 +218,7 @@ mod tests {
             };
             assert!(colored_cloud(&PointCloud::default(), &[mark]).x.is_empty());
         }
-        let ragged = PointCloud {
-            x: vec![1.0, 2.0],
-            y: vec![1.0],
-            z: vec![1.0, 2.0, 3.0],
-            ..PointCloud::default()
-        };
+        let ragged = PointCloud::from_coordinates(vec![1.0, 2.0], vec![1.0], vec![1.0, 2.0, 3.0]);
         assert_eq!(
             colored_cloud(&ragged, &[]).colors,
             Some(vec![palette::REST])

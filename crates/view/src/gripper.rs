@@ -84,17 +84,7 @@ mod tests {
     use pomona_geometry::Segment;
 
     fn camera() -> Camera {
-        Camera {
-            width: 200,
-            height: 100,
-            fx: 100.0,
-            fy: 100.0,
-            cx: 99.5,
-            cy: 49.5,
-            depth_scale: 0.001,
-            frame_id: String::new(),
-            distortion: None,
-        }
+        Camera::new([200, 100], [100.0; 2], [99.5, 49.5])
     }
 
     #[test]

@@ -7,10 +7,7 @@
 //! use pomona_view::{AppleMark, Overlay};
 //!
 //! let image = ColorImage { width: 640, height: 480, pixels: vec![[90, 120, 80]; 640 * 480] };
-//! let camera = Camera {
-//!     width: 640, height: 480, fx: 600.0, fy: 600.0, cx: 319.5, cy: 239.5,
-//!     depth_scale: 0.001, frame_id: "camera_color_optical_frame".into(), distortion: None,
-//! };
+//! let camera = Camera::new([640, 480], [600.0, 600.0], [319.5, 239.5]);
 //!
 //! let name = String::from("apple");
 //! let bounds = PixelBox { name, x_min: 290.0, y_min: 210.0, x_max: 350.0, y_max: 270.0, score: 1.0 };
@@ -36,6 +33,8 @@
 //!
 //! [`draw_boxes`] draws only boxes, each a [`BoxMark`], and [`contact_sheet`] arranges such pictures on a contact
 //! sheet.
+//!
+//! An [`Enlargement`] is a part of an image, enlarged, with lines and circles.
 //!
 //! [`tint`] mixes a colour into pixels, such as those of a mask.
 //!
@@ -65,6 +64,7 @@ mod box_picture;
 mod boxes;
 mod canvas;
 mod colored_cloud;
+mod enlargement;
 mod error;
 mod gripper;
 mod label;
@@ -84,6 +84,7 @@ mod viewpoint;
 
 pub use box_picture::{BoxKind, BoxMark, draw_boxes};
 pub use colored_cloud::{CloudMark, colored_cloud};
+pub use enlargement::Enlargement;
 pub use error::ViewError;
 pub use mark::AppleMark;
 pub use overlay::Overlay;

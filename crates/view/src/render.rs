@@ -4,6 +4,7 @@ use pomona_cloud::{ColorImage, PointCloud};
 
 /// How [`render_cloud`] draws.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct RenderOptions {
     /// Width of the picture, pixels.
     pub width: usize,
@@ -172,14 +173,9 @@ mod tests {
 
     fn cloud(points: &[([f32; 3], [u8; 3])]) -> PointCloud {
         let axis = |i: usize| points.iter().map(|(p, _)| p[i]).collect();
-        let colors = Some(points.iter().map(|(_, c)| *c).collect());
-        PointCloud {
-            x: axis(0),
-            y: axis(1),
-            z: axis(2),
-            colors,
-            size: None,
-        }
+        let mut cloud = PointCloud::from_coordinates(axis(0), axis(1), axis(2));
+        cloud.colors = Some(points.iter().map(|(_, c)| *c).collect());
+        cloud
     }
 
     #[test]

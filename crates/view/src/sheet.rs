@@ -8,6 +8,7 @@ const GAP: usize = 8;
 
 /// One picture of a sheet.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct ContactSheetImage {
     /// The image.
     pub image: ColorImage,
@@ -15,6 +16,17 @@ pub struct ContactSheetImage {
     pub marks: Vec<BoxMark>,
     /// The text below it.
     pub caption: String,
+}
+
+impl ContactSheetImage {
+    /// An image with boxes over it and a text below it.
+    pub fn new(image: ColorImage, marks: Vec<BoxMark>, caption: impl Into<String>) -> Self {
+        Self {
+            image,
+            marks,
+            caption: caption.into(),
+        }
+    }
 }
 
 /// Pictures side by side, `columns` in a row, each scaled to fit a square of `side` pixels.

@@ -24,7 +24,8 @@ const LAYERS: &[&[&str]] = &[
     &["pomona-detect", "pomona-segment"],
     &["pomona", "pomona-scenes", "pomona-view"],
     &["pomona-fusion", "pomona-messages"],
-    &["pomona-evaluate", "pomona-labels"],
+    &["pomona-labels"],
+    &["pomona-evaluate"],
     &["pomona-cli"],
 ];
 

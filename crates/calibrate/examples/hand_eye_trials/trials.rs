@@ -135,11 +135,11 @@ impl Trial {
     pub(crate) fn samples(&self) -> Result<Vec<PoseSample>, TransformError> {
         let poses = self.robot_from_flange.iter().zip(&self.camera_from_target);
         let sample = |(i, (flange, target)): (usize, (&Numbers, &Numbers))| {
-            Ok(PoseSample {
-                id: format!("pose-{i}"),
-                robot_from_flange: transform(flange)?,
-                camera_from_target: transform(target)?,
-            })
+            Ok(PoseSample::new(
+                format!("pose-{i}"),
+                transform(flange)?,
+                transform(target)?,
+            ))
         };
         poses.enumerate().map(sample).collect()
     }

@@ -33,6 +33,7 @@ pub(crate) fn between(pairs: &[PosePair]) -> Vec<Motion> {
 
 /// How far the robot turned among samples.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+#[non_exhaustive]
 pub struct MotionSpread {
     /// Largest rotation between two samples, rad.
     pub largest_rad: f64,

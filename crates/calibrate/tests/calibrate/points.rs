@@ -31,11 +31,7 @@ fn samples(n: usize, sigma: f64, seed: u64) -> Vec<PointSample> {
             let (x, y, z) = (span(&mut rng), span(&mut rng), span(&mut rng));
             let camera = Point3::new(x, y, 0.9 + z);
             let robot = truth().position(&Position::new(camera)).point() + normal(&mut rng, sigma);
-            PointSample {
-                id: format!("p{i}"),
-                camera: Position::new(camera),
-                robot: Position::new(robot),
-            }
+            PointSample::new(format!("p{i}"), Position::new(camera), Position::new(robot))
         })
         .collect()
 }
@@ -77,12 +73,13 @@ proptest! {
     fn nothing_panics(
         points in prop::collection::vec(prop::array::uniform6(prop_oneof![Just(0.0), Just(1.0), Just(1e300), -1.0..1.0f64]), 0..9),
     ) {
-        let samples: Vec<PointSample> = points.iter().enumerate().map(|(i, p)| PointSample {
-            id: i.to_string(),
-            camera: Position::new(Point3::new(p[0], p[1], p[2])),
-            robot: Position::new(Point3::new(p[3], p[4], p[5])),
-        }).collect();
-        let options = Options { hypotheses: 20, ..Options::default() };
+        let samples: Vec<PointSample> = points.iter().enumerate().map(|(i, p)| PointSample::new(
+            i.to_string(),
+            Position::new(Point3::new(p[0], p[1], p[2])),
+            Position::new(Point3::new(p[3], p[4], p[5])),
+        )).collect();
+        let mut options = Options::default();
+        options.hypotheses = 20;
         let _ = calibrate_points(&samples, &options, &mut ChaCha8Rng::seed_from_u64(0));
     }
 }
@@ -226,10 +223,8 @@ fn other_refusals() {
         matches!(error, CalibrateError::NoConsensus { .. }),
         "{error}"
     );
-    let options = Options {
-        translation_tolerance_m: f64::NAN,
-        ..Options::default()
-    };
+    let mut options = Options::default();
+    options.translation_tolerance_m = f64::NAN;
     let error = calibrate_points(&good, &options, &mut ChaCha8Rng::seed_from_u64(0)).unwrap_err();
     assert!(matches!(error, CalibrateError::Setting { .. }), "{error}");
 }

@@ -42,15 +42,15 @@ fn scene(n: usize, in_hand: bool, noise: (f64, f64), turn: f64, seed: u64) -> Sy
             let seen = camera.inv_mul(&(carrier * target));
             let turned = UnitQuaternion::from_scaled_axis(normal(rng, noise.0)) * seen.rotation;
             let moved = seen.translation.vector + normal(rng, noise.1);
-            PoseSample {
-                id: format!("s{i}"),
-                robot_from_flange: Transform::<RobotFrame, FlangeFrame>::from_isometry(&flange)
-                    .unwrap(),
-                camera_from_target: Transform::<CameraFrame, TargetFrame>::from_isometry(
-                    &Isometry3::from_parts(Translation3::from(moved), turned),
-                )
+            PoseSample::new(
+                format!("s{i}"),
+                Transform::<RobotFrame, FlangeFrame>::from_isometry(&flange).unwrap(),
+                Transform::<CameraFrame, TargetFrame>::from_isometry(&Isometry3::from_parts(
+                    Translation3::from(moved),
+                    turned,
+                ))
                 .unwrap(),
-            }
+            )
         })
         .collect();
     SyntheticRig {
@@ -127,12 +127,13 @@ proptest! {
         poses in prop::collection::vec((prop::array::uniform6(prop_oneof![Just(0.0), Just(3.0), -1.0..1.0f64]),
             prop::array::uniform6(prop_oneof![Just(0.0), Just(3.0), -1.0..1.0f64])), 0..8),
     ) {
-        let samples: Vec<PoseSample> = poses.iter().enumerate().map(|(i, (a, b))| PoseSample {
-            id: i.to_string(),
-            robot_from_flange: Transform::from_isometry(&twist::exp(&Vector6::from(*a))).unwrap(),
-            camera_from_target: Transform::from_isometry(&twist::exp(&Vector6::from(*b))).unwrap(),
-        }).collect();
-        let options = Options { hypotheses: 20, ..Options::default() };
+        let samples: Vec<PoseSample> = poses.iter().enumerate().map(|(i, (a, b))| PoseSample::new(
+            i.to_string(),
+            Transform::from_isometry(&twist::exp(&Vector6::from(*a))).unwrap(),
+            Transform::from_isometry(&twist::exp(&Vector6::from(*b))).unwrap(),
+        )).collect();
+        let mut options = Options::default();
+        options.hypotheses = 20;
         let _ = calibrate_eye_to_hand(&samples, &options, &mut rng());
         let _ = calibrate_robot_world(&samples, &options, &mut rng());
     }

@@ -6,14 +6,21 @@ use std::path::Path;
 /// Schema of [`DetectionsRecord`]; a change of meaning changes its number.
 const SCHEMA: &str = "pomona.detections/1";
 
-/// What `detections.json` holds.
+/// What `pomona detect` saw in colour images, as it writes it to detections.json. Edges in pixels of the image, counted
+/// from its left and upper edge; a box may reach beyond the image. Times in milliseconds. What is not known is absent.
 #[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema), schemars(deny_unknown_fields))]
 pub(super) struct DetectionsRecord {
+    /// Name and version of this form.
+    #[cfg_attr(test, schemars(extend("const" = SCHEMA)))]
     schema: &'static str,
+    /// Version of the program.
     version: &'static str,
     /// What detected.
+    #[cfg_attr(test, schemars(with = "pomona_schema::DetectorReport"))]
     pub(super) detector: DetectorReport,
-    /// Time to open it, milliseconds.
+    /// Time to load the model and its inference backend.
+    #[cfg_attr(test, schemars(range(min = 0)))]
     open_ms: f64,
     /// In the order given.
     pub(super) images: Vec<ImageRecord>,
@@ -21,35 +28,55 @@ pub(super) struct DetectionsRecord {
 
 /// One image.
 #[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema), schemars(deny_unknown_fields))]
 pub(super) struct ImageRecord {
+    /// The file's name without its ending, or the frame's.
     pub(super) name: String,
+    /// The image, as the command line named it.
     pub(super) file: String,
+    /// Its width.
+    #[cfg_attr(test, schemars(range(min = 1)))]
     pub(super) width: usize,
+    /// Its height.
+    #[cfg_attr(test, schemars(range(min = 1)))]
     pub(super) height: usize,
     /// Best first.
     pub(super) detections: Vec<DetectionRecord>,
-    /// The file with its boxes, beside the record.
+    /// The box file that holds them, beside this one.
     pub(super) boxes: String,
-    /// The picture, beside the record.
+    /// The image with the boxes drawn over it, beside this file.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) picture: Option<String>,
+    /// How long it took.
     pub(super) timing_ms: TimingRecord,
 }
 
 /// Times, milliseconds.
 #[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema), schemars(deny_unknown_fields))]
 pub(super) struct TimingRecord {
+    /// Reading the image.
+    #[cfg_attr(test, schemars(range(min = 0)))]
     pub(super) read: f64,
+    /// Detecting in it, from pixels to boxes.
+    #[cfg_attr(test, schemars(range(min = 0)))]
     pub(super) detect: f64,
 }
 
 /// One box, pixels.
 #[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema), schemars(deny_unknown_fields))]
 pub(super) struct DetectionRecord {
+    /// Left edge.
     x_min: f64,
+    /// Upper edge.
     y_min: f64,
+    /// Right edge.
     x_max: f64,
+    /// Lower edge.
     y_max: f64,
+    /// How sure the detector is.
+    #[cfg_attr(test, schemars(range(min = 0, max = 1)))]
     pub(super) score: f64,
     /// Number of the class in the model's own list.
     class: usize,
@@ -122,6 +149,11 @@ pub(super) fn files_of_earlier_run(record: &Path) -> Vec<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_schema_in_the_docs_is_that_of_the_types() {
+        pomona_schema::assert_in_docs::<DetectionsRecord>(SCHEMA, "detections.schema.json");
+    }
 
     #[test]
     fn only_a_record_of_ours_says_what_is_ours() {

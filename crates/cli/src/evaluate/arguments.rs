@@ -1,6 +1,7 @@
 //! What the command line says.
 
 use super::detection::DetectionArguments;
+use super::real_arguments::RealArguments;
 use super::results::Results;
 use super::robot::RobotArguments;
 use super::segmentation::SegmentationArguments;
@@ -25,17 +26,20 @@ Examples:
                                                       several in one run, compared in pairs
   pomona evaluate --segmentation tiles --strokes strokes.txt --out out
                                                       wood of the built-in model on strokes drawn by eye
+  pomona evaluate --real frames/a frames/b --strokes strokes.txt --out out
+                                                      directions on real frames against such strokes
 
 Writes evaluation.json, apples.csv and report.html into DIR; with --calipers calipers.json and report.html; with \
 --detection detection.json, report.html and a sheet of each detector's worst images, worst-N.png; with --segmentation \
-segmentation.json and the same.
-A frame without ground truth can only be evaluated with --calipers: a CSV with the columns box_name and diameter_mm.";
+segmentation.json and the same; with --real real.json, real.csv and report.html.
+A frame without ground truth can be evaluated with --calipers, a CSV with the columns box_name and diameter_mm, and with \
+--real, strokes of the wood that a person sees.";
 
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct EvaluateArguments {
     /// Suites (see `pomona scenes --list`), SUITE@N for scenes from seed N on, frames with truth.json, or
-    /// folders of such frames; with --calipers any frames.
+    /// folders of such frames; with --calipers and --real any frames.
     #[arg(required_unless_present_any = ["detection", "segmentation"], value_name = "SUITE|FRAME")]
     pub(super) subjects: Vec<String>,
     #[command(flatten)]
@@ -58,6 +62,8 @@ pub(crate) struct EvaluateArguments {
     pub(super) calipers: Option<PathBuf>,
     #[command(flatten)]
     pub(super) robot: RobotArguments,
+    #[command(flatten)]
+    pub(super) real: RealArguments,
     #[command(flatten)]
     pub(super) detection: DetectionArguments,
     #[command(flatten)]

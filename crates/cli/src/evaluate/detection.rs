@@ -79,10 +79,7 @@ pub(super) fn run(
     say_what_is_left_out(&dataset, terminal);
     let opened = own.open(&dataset, terminal)?;
     let sources: Vec<DetectionSource<'_>> = opened.iter().map(Opened::source).collect();
-    let options = DetectionOptions {
-        threshold: own.threshold,
-        seed,
-    };
+    let options = DetectionOptions::new(own.threshold, seed);
     let bar = progress::bar(dataset.images.len());
     let (evaluation, matched) = evaluate_detections(&dataset, &sources, &options, &|| bar.inc(1))?;
     bar.finish_and_clear();
@@ -228,14 +225,14 @@ fn sheets(
         for worst in &result.worst {
             let pairs = dataset.images.iter().zip(matched);
             for (image, matched) in pairs.filter(|(image, _)| image.name == worst.image) {
-                pictures.push(ContactSheetImage {
-                    image: ColorImage::read(&image.path)?,
-                    marks: marks(matched, evaluation.threshold),
-                    caption: format!(
+                pictures.push(ContactSheetImage::new(
+                    ColorImage::read(&image.path)?,
+                    marks(matched, evaluation.threshold),
+                    format!(
                         "-{} +{} {}",
                         worst.missed, worst.false_positives, worst.image
                     ),
-                });
+                ));
             }
         }
         names.push(worst_sheet::write(&pictures, number + 1, output)?);
@@ -246,26 +243,21 @@ fn sheets(
 /// True positives in green, missed labels in yellow, false positives in red.
 fn marks(matched: &MatchedImage, threshold: f64) -> Vec<BoxMark> {
     let detected = |kind| {
-        move |d: Detection| BoxMark {
-            bounds: d.to_pixel_box(String::new()),
-            kind,
-            caption: format!("{:.2}", d.score),
+        move |d: Detection| {
+            BoxMark::new(d.to_pixel_box(String::new()), kind).captioned(format!("{:.2}", d.score))
         }
     };
     let missed = |label: GroundTruthBox| {
         let [x_min, y_min, x_max, y_max] = label.edges;
-        BoxMark {
-            bounds: PixelBox {
-                name: String::new(),
-                x_min,
-                y_min,
-                x_max,
-                y_max,
-                score: 1.0,
-            },
-            kind: BoxKind::Missed,
-            caption: String::new(),
-        }
+        let bounds = PixelBox {
+            name: String::new(),
+            x_min,
+            y_min,
+            x_max,
+            y_max,
+            score: 1.0,
+        };
+        BoxMark::new(bounds, BoxKind::Missed)
     };
     let true_positives = matched
         .true_positives(threshold)

@@ -66,10 +66,7 @@ fn methods(arguments: &EvaluateArguments) -> anyhow::Result<Vec<Picker>> {
         if pickers.iter().any(|p| p.config().method == method) {
             bail!("--method {name} is given twice; give each method once");
         }
-        pickers.push(Picker::new(Config {
-            method,
-            ..config.clone()
-        })?);
+        pickers.push(Picker::new(config.clone().with(|c| c.method = method))?);
     }
     Ok(pickers)
 }

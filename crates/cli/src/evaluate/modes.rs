@@ -5,6 +5,7 @@
 
 use super::arguments::EvaluateArguments;
 use super::detection::DetectionArguments;
+use super::real_arguments::RealArguments;
 use super::robot::RobotArguments;
 use super::segmentation::SegmentationArguments;
 use crate::settings::SettingValues;
@@ -18,14 +19,16 @@ enum Mode {
     Calipers,
     Detection,
     Segmentation,
+    Real,
 }
 
 impl Mode {
-    const ALL: [Self; 4] = [
+    const ALL: [Self; 5] = [
         Self::Suites,
         Self::Calipers,
         Self::Detection,
         Self::Segmentation,
+        Self::Real,
     ];
 
     /// The mode that a command line asks for.
@@ -34,6 +37,7 @@ impl Mode {
         match () {
             () if asked("detection") => Self::Detection,
             () if asked("segmentation") => Self::Segmentation,
+            () if asked("real") => Self::Real,
             () if asked("calipers") => Self::Calipers,
             () => Self::Suites,
         }
@@ -46,6 +50,7 @@ impl Mode {
             Self::Calipers => "--calipers",
             Self::Detection => "--detection",
             Self::Segmentation => "--segmentation",
+            Self::Real => "--real",
         }
     }
 
@@ -68,6 +73,16 @@ impl Mode {
             Self::Segmentation => ids::<SegmentationArguments>()
                 .chain(named(&["runtime", "tiles"]))
                 .chain(counted)
+                .collect(),
+            Self::Real => methods()
+                .chain(ids::<RealArguments>())
+                .chain(named(&[
+                    "strokes",
+                    "segmenters",
+                    "runtime",
+                    "tiles",
+                    "apple_radii",
+                ]))
                 .collect(),
         }
     }

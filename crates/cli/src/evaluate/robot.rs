@@ -35,13 +35,10 @@ impl RobotArguments {
             Some(None) => ApproachConfig::default(),
             Some(Some(path)) => ApproachConfig::read(path)?,
         };
-        Ok(Some(RobotTrial {
-            robot: Robot::new(config)?,
-            noise: CalibrationNoise {
-                poses: self.calibration_poses,
-                rotation_rad: self.calibration_noise_deg.to_radians(),
-                translation_m: self.calibration_noise_mm / 1e3,
-            },
-        }))
+        let mut noise = CalibrationNoise::default();
+        noise.poses = self.calibration_poses;
+        noise.rotation_rad = self.calibration_noise_deg.to_radians();
+        noise.translation_m = self.calibration_noise_mm / 1e3;
+        Ok(Some(RobotTrial::new(Robot::new(config)?, noise)))
     }
 }

@@ -1,11 +1,12 @@
 use super::results::{REPORT, Results, json};
 use super::segmentation_text;
 use super::worst_sheet::{self, is_sheet, stem};
-use crate::detector::{BUILT_IN, DetectorSettings, Model, parse_model, parse_share};
+use crate::detector::{BUILT_IN, DetectorSettings, Model, parse_share};
 use crate::output_folder::Staging;
 use crate::progress;
 use crate::segmenter::{open, say};
 use crate::terminal::Terminal;
+use crate::wood::{SegmenterChoice, parse_segmenter};
 use anyhow::{anyhow, bail};
 use clap::Args;
 use pomona_cloud::{ColorImage, GrayImage};
@@ -21,6 +22,8 @@ use std::path::{Path, PathBuf};
 
 /// Heading of these options.
 const HEADING: &str = "Segmentation";
+/// The options of which one says what strokes are for.
+pub(super) const STROKED: &str = "stroked";
 const SEGMENTATION: &str = "segmentation.json";
 /// The strokes of a folder, where `--strokes` is not given.
 const STROKES: &str = "strokes.txt";
@@ -32,11 +35,11 @@ const OPACITY: f32 = 0.6;
 pub(super) struct SegmentationArguments {
     /// Measure masks of wood on strokes drawn by eye, or on true masks: the folder of the images (or of their `images/`,
     /// or of frames).
-    #[arg(long, value_name = "FOLDER", help_heading = HEADING, conflicts_with_all = ["subjects", "methods", "variants", "SettingValues", "calipers", "detection"])]
+    #[arg(long, value_name = "FOLDER", help_heading = HEADING, group = STROKED, conflicts_with_all = ["subjects", "methods", "variants", "SettingValues", "calipers", "detection"])]
     pub(super) segmentation: Option<PathBuf>,
-    /// The strokes. Default: strokes.txt in the folder.
-    #[arg(long, value_name = "FILE", requires = "segmentation", conflicts_with = "truth_masks", help_heading = HEADING)]
-    strokes: Option<PathBuf>,
+    /// The strokes, also with --real. Default: strokes.txt in the folder; with --real wood.txt in each frame's folder.
+    #[arg(long, value_name = "FILE", requires = STROKED, conflicts_with = "truth_masks", help_heading = HEADING)]
+    pub(super) strokes: Option<PathBuf>,
     /// Masks as the truth in place of strokes: a folder with NAME.wood.png (or NAME.png) for each image, grey, 255 for
     /// wood and 0 for the rest; or a folder of frames with classes.png, as `pomona scenes` writes them. Images without
     /// a mask are left out.
@@ -46,9 +49,10 @@ pub(super) struct SegmentationArguments {
     #[arg(long, value_name = "FILE", requires = "segmentation", conflicts_with = "truth_masks", help_heading = HEADING)]
     second_strokes: Option<PathBuf>,
     /// A segmentation model to measure (ONNX), or `built-in`; may be repeated. Default: built-in, unless --masks are
-    /// given.
-    #[arg(long = "segmenter", value_name = "FILE", value_parser = parse_model, requires = "segmentation", help_heading = HEADING)]
-    segmenters: Vec<Model>,
+    /// given. With --real the model that tells the methods where wood is, or `none`; default: built-in, unless
+    /// --wood-masks are given.
+    #[arg(long = "segmenter", value_name = "FILE", value_parser = parse_segmenter, requires = STROKED, help_heading = HEADING)]
+    pub(super) segmenters: Vec<SegmenterChoice>,
     /// Masks of another program: a folder with NAME.wood.png (or NAME.png) for each image, grey, 255 where it is
     /// sure of wood; may be repeated.
     #[arg(long, value_name = "FOLDER", requires = "segmentation", help_heading = HEADING)]
@@ -59,9 +63,13 @@ pub(super) struct SegmentationArguments {
     /// Distance in pixels within which wood is found and a mark is right.
     #[arg(long, value_name = "PX", default_value_t = 3.0, value_parser = parse_tolerance, requires = "segmentation", help_heading = HEADING)]
     tolerance_px: f64,
-    /// Count only what lies within N radii of the apples boxed in each frame, where only that has been drawn in.
-    #[arg(long, value_name = "N", value_parser = parse_tolerance, requires = "segmentation", help_heading = HEADING)]
-    apple_radii: Option<f64>,
+    /// Count only what lies within N radii of the apples boxed in each frame, where only that has been drawn in. With
+    /// --real and without --apples: the wood of an apple is seen where wood is drawn within N radii (default 3).
+    #[arg(long, value_name = "N", value_parser = parse_tolerance, requires = STROKED, help_heading = HEADING)]
+    pub(super) apple_radii: Option<f64>,
+    /// Scales at which models look at an image, separated by commas; the result is the mean.
+    #[arg(long, value_name = "ZOOM", value_delimiter = ',', default_value = "1", requires = "segmentation", help_heading = HEADING)]
+    zoom: Vec<f64>,
 }
 
 fn parse_tolerance(text: &str) -> Result<f64, String> {
@@ -107,12 +115,8 @@ pub(super) fn run(
         }
         sources.push(SegmentationSource::Masks { name, read });
     }
-    let options = SegmentationOptions {
-        threshold: own.wood_threshold,
-        tolerance_px: own.tolerance_px,
-        seed,
-        apple_radii: own.apple_radii,
-    };
+    let mut options = SegmentationOptions::new(own.wood_threshold, own.tolerance_px, seed);
+    options.apple_radii = own.apple_radii;
     let bar = progress::bar(images.len());
     let evaluation =
         evaluate_segmentation(&stem(&truth), &images, &second, &sources, &options, &|| {
@@ -156,11 +160,14 @@ impl SegmentationArguments {
         terminal: Terminal,
     ) -> anyhow::Result<Vec<(String, Box<dyn Segmenter>)>> {
         let models = match (&*self.segmenters, &*self.masks) {
-            ([], []) => &[Model::BuiltIn][..],
+            ([], []) => &[SegmenterChoice::Model(Model::BuiltIn)][..],
             (models, _) => models,
         };
         let mut opened: Vec<(String, Box<dyn Segmenter>)> = Vec::new();
-        for model in models {
+        for choice in models {
+            let SegmenterChoice::Model(model) = choice else {
+                bail!("--segmenter none: give a model to measure, or masks by --masks");
+            };
             let name = match model {
                 Model::BuiltIn => BUILT_IN.to_owned(),
                 Model::File(path) => stem(path),
@@ -170,7 +177,7 @@ impl SegmentationArguments {
                     "--segmenter: `{name}` is given twice; give each once, and files names of their own"
                 );
             }
-            let segmenter = open(model, settings.runtime(), settings.tiles())?;
+            let segmenter = open(model, settings.runtime(), settings.tiles(), &self.zoom)?;
             say(&segmenter.report(), terminal);
             opened.push((name, segmenter));
         }
@@ -245,14 +252,14 @@ fn sheets(
         let mut pictures = Vec::new();
         for worst in &result.worst {
             for image in images.iter().filter(|image| image.name == worst.image) {
-                pictures.push(ContactSheetImage {
-                    image: marked(image, source, options)?,
-                    marks: Vec::new(),
-                    caption: format!(
+                pictures.push(ContactSheetImage::new(
+                    marked(image, source, options)?,
+                    Vec::new(),
+                    format!(
                         "-{:.0} +{} {}",
                         worst.missed_px, worst.false_pixels, worst.image
                     ),
-                });
+                ));
             }
         }
         names.push(worst_sheet::write(&pictures, number + 1, output)?);

@@ -2,6 +2,7 @@ use super::files::FileChoice;
 use crate::apple_cloud::CloudChoice;
 use crate::detector::DetectorArguments;
 use crate::settings::SettingsArguments;
+use crate::wood::{SegmenterChoice, parse_segmenter};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -10,6 +11,8 @@ Examples:
   pomona pick frames/a --out out                      out/picks.json, picture.png, apple-N.ply
   pomona pick frames/a frames/b --out out             out/a/... and out/b/...
   pomona pick frames/a --boxes detections.json --out out
+  pomona pick frames/a --segmenter built-in --out out branches by colour and depth, for real trees
+  pomona pick frames/a --wood a.wood.png --out out    branches by somebody else's mask of wood
   pomona pick frames/a --detect --model mine.onnx --out out
   pomona pick frames/a --transform robot_from_camera.json --out out
   pomona pick frames/a --transform robot_from_camera.json --robot robot.toml --ros --out out
@@ -46,6 +49,14 @@ pub(crate) struct PickArguments {
     /// Boxes of the apples (VOC, COCO or YOLO) instead of the frame's own; for one frame.
     #[arg(long, value_name = "FILE")]
     pub(super) boxes: Option<PathBuf>,
+    /// Where wood is: an 8-bit grey image of the colour image's size, 255 where it is sure of wood, such as
+    /// NAME.wood.png of `pomona segment`; for one frame.
+    #[arg(long, value_name = "FILE")]
+    pub(super) wood: Option<PathBuf>,
+    /// The segmentation model that tells wood in the colour image (ONNX), `built-in`, or `none`: branches are then
+    /// looked for in depth alone. For real trees; --runtime holds for it too.
+    #[arg(long, value_name = "FILE", default_value = "none", value_parser = parse_segmenter, conflicts_with = "wood")]
+    pub(super) segmenter: SegmenterChoice,
     /// Run the detector even if a frame has boxes.
     #[arg(long, conflicts_with = "boxes")]
     pub(super) detect: bool,
@@ -91,6 +102,12 @@ pub(crate) struct PickArguments {
 }
 
 impl PickArguments {
+    /// An option whose file belongs to one frame, where there is one.
+    pub(super) fn of_one_frame(&self) -> Option<&'static str> {
+        let boxes = self.boxes.is_some().then_some("--boxes");
+        boxes.or(self.wood.is_some().then_some("--wood"))
+    }
+
     /// Which files a frame's answers are written to.
     pub(super) fn files(&self) -> FileChoice<'_> {
         FileChoice {

@@ -11,8 +11,12 @@ pub(super) struct Job {
 }
 
 /// The work on each of `frames`, with the names of its files claimed: in `out` itself for one frame, in a folder each
-/// for several. `one_box_file` where boxes were given that belong to one frame.
-pub(super) fn jobs(frames: &[PathBuf], out: &Path, one_box_file: bool) -> anyhow::Result<Vec<Job>> {
+/// for several. `of_one_frame` is an option whose file belongs to one frame.
+pub(super) fn jobs(
+    frames: &[PathBuf],
+    out: &Path,
+    of_one_frame: Option<&str>,
+) -> anyhow::Result<Vec<Job>> {
     let job = |frame: &Path, out: &Path| -> anyhow::Result<Job> {
         Ok(Job {
             frame: frame.to_owned(),
@@ -22,9 +26,10 @@ pub(super) fn jobs(frames: &[PathBuf], out: &Path, one_box_file: bool) -> anyhow
     if let [frame] = frames {
         return Ok(vec![job(frame, out)?]);
     }
-    if one_box_file {
+    if let Some(option) = of_one_frame {
         bail!(
-            "--boxes holds the boxes of one frame, but {} frames are given; put boxes into each frame's folder",
+            "{option} is for one frame, but {} are given; give each a run of its own, or put boxes into the frames' \
+             folders",
             frames.len()
         );
     }

@@ -2,12 +2,15 @@ use super::arguments::PickArguments;
 use super::files::{self, RobotOutput};
 use super::jobs::Job;
 use crate::terminal::Terminal;
+use crate::wood::{self, SegmenterChoice};
 use anyhow::anyhow;
 use pomona::{
-    ApproachConfig, CheckedFrame, Config, FrameAnswer, Picker, Robot, RobotFromCamera, find_apples,
+    ApproachConfig, CheckedFrame, Config, DetectedApples, FrameAnswer, Picker, Robot,
+    RobotFromCamera, find_apples,
 };
-use pomona_cloud::{Frame, read_boxes};
+use pomona_cloud::{Frame, GrayImage, PixelBox, read_boxes};
 use pomona_detect::Detector;
+use pomona_segment::CloseUps;
 use std::cell::OnceCell;
 use std::path::Path;
 use std::time::Instant;
@@ -19,6 +22,8 @@ pub(super) struct Session<'a> {
     robot: Option<Robot>,
     /// Opened when the first frame needs it.
     detector: OnceCell<Box<dyn Detector>>,
+    /// The same.
+    segmenter: OnceCell<CloseUps>,
     arguments: &'a PickArguments,
 }
 
@@ -37,6 +42,7 @@ impl<'a> Session<'a> {
                 .map(|path| Robot::new(ApproachConfig::read(path)?))
                 .transpose()?,
             detector: OnceCell::new(),
+            segmenter: OnceCell::new(),
             arguments,
         })
     }
@@ -63,8 +69,21 @@ impl<'a> Session<'a> {
         let id = &frame.frame().id;
         log::info!("{id}: read in {:.0?}", start.elapsed());
 
+        let detected = self.detected(&frame)?;
         let start = Instant::now();
-        let mut answer = self.answer(&frame, pose)?;
+        let wood = self.wood(&frame, detected.as_ref(), terminal)?;
+        let frame = match &wood {
+            Some(wood) => frame.with_wood(wood)?,
+            None => frame,
+        };
+        log::info!("{id}: wood told in {:.0?}", start.elapsed());
+
+        let start = Instant::now();
+        let seed = self.arguments.seed;
+        let mut answer = match &detected {
+            Some(detected) => self.picker.pick_detected(&frame, detected, seed, pose)?,
+            None => self.picker.pick(&frame, seed, pose)?,
+        };
         log::info!("{id}: picked in {:.0?}", start.elapsed());
 
         let robot = self.robot.as_ref().zip(pose).map(|(robot, pose)| {
@@ -96,20 +115,45 @@ impl<'a> Session<'a> {
         Ok(frame)
     }
 
-    /// The answers for a frame's boxes, or for those that the detector finds.
-    fn answer(
-        &self,
-        frame: &CheckedFrame<'_>,
-        pose: Option<&RobotFromCamera>,
-    ) -> anyhow::Result<FrameAnswer> {
-        let seed = self.arguments.seed;
+    /// What the detector finds, where the frame has no boxes or the command line asks for it.
+    fn detected(&self, frame: &CheckedFrame<'_>) -> anyhow::Result<Option<DetectedApples>> {
         if frame.frame().boxes.is_some() && !self.arguments.detect {
-            return Ok(self.picker.pick(frame, seed, pose)?);
+            return Ok(None);
         }
         let detector = self.detector(&frame.frame().id)?;
         let detected = find_apples(frame, detector, self.config())?;
         log::info!("{}: {:?}", frame.frame().id, detected.summary);
-        Ok(self.picker.pick_detected(frame, &detected, seed, pose)?)
+        Ok(Some(detected))
+    }
+
+    /// The probability of wood of each pixel about the apples: from the mask or by the segmenter that the command line
+    /// names.
+    fn wood(
+        &self,
+        frame: &CheckedFrame<'_>,
+        detected: Option<&DetectedApples>,
+        terminal: Terminal,
+    ) -> anyhow::Result<Option<GrayImage>> {
+        if let Some(path) = &self.arguments.wood {
+            return Ok(Some(GrayImage::read(path)?));
+        }
+        let SegmenterChoice::Model(model) = &self.arguments.segmenter else {
+            return Ok(None);
+        };
+        if self.segmenter.get().is_none() {
+            let opened = wood::open(model, self.arguments.detector.runtime(), terminal)?;
+            // It was empty.
+            let _ = self.segmenter.set(opened);
+        }
+        let Some(segmenter) = self.segmenter.get() else {
+            return Ok(None);
+        };
+        let frame = frame.frame();
+        let mut boxes: Vec<&PixelBox> = frame.boxes.iter().flatten().collect();
+        if let Some(detected) = detected {
+            boxes = detected.boxes.iter().map(|b| &b.bounds).collect();
+        }
+        wood::about(segmenter, &frame.color, &boxes).map(Some)
     }
 
     /// The detector that the command line asks for, the same for all frames.

@@ -5,13 +5,8 @@ use crate::scene::Bench;
 use pomona_cloud::{CloudFormat, PointCloud};
 
 fn cloud(points: &[[f32; 3]]) -> PointCloud {
-    PointCloud {
-        x: points.iter().map(|p| p[0]).collect(),
-        y: points.iter().map(|p| p[1]).collect(),
-        z: points.iter().map(|p| p[2]).collect(),
-        colors: None,
-        size: None,
-    }
+    let axis = |i: usize| points.iter().map(|p| p[i]).collect();
+    PointCloud::from_coordinates(axis(0), axis(1), axis(2))
 }
 
 const FOUR: [[f32; 3]; 4] = [

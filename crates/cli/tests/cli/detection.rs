@@ -88,7 +88,21 @@ fn two_programs_in_one_run() {
         ]
     );
     let evaluation = read_json(&dir.path().join("out/detection.json"));
-    Schema::read("detection-evaluation.schema.json").accepts(&evaluation);
+    let schema = Schema::read("detection-evaluation.schema.json");
+    schema.accepts(&evaluation);
+    for parent in [
+        "",
+        "/dataset",
+        "/results/0",
+        "/results/0/curve/best_f1",
+        "/results/0/by_size/0/size",
+    ] {
+        schema.refuses(&evaluation, &format!("{parent}/extra"), Some(json!(1)));
+    }
+    schema.refuses(&evaluation, "/dataset/form", Some(json!("drawer")));
+    schema.refuses(&evaluation, "/results/0/curve/best_f1", None);
+    schema.refuses(&evaluation, "/results/0/curve/ap50", Some(Value::Null));
+    schema.refuses(&evaluation, "/results/0/recall/high", None);
     assert_eq!(evaluation["dataset"]["labels"], 3);
     assert_eq!(evaluation["dataset"]["background_images"], 1);
     let [good, poor] = [0, 1].map(|i| &evaluation["results"][i]);
@@ -107,6 +121,18 @@ fn two_programs_in_one_run() {
     );
     let page = fs::read_to_string(dir.path().join("out/report.html")).unwrap();
     assert!(page.contains("worst-2.png") && page.contains("<svg role=\"img\""));
+}
+
+#[test]
+fn a_program_that_detects_nothing_has_no_best_f1() {
+    let dir = bench();
+    fs::create_dir(dir.path().join("none")).unwrap();
+    fs::write(dir.path().join("none/a.txt"), "").unwrap();
+    let run = pomona(&line(&dir, &["none"], &["--json", "--label-class", "0"])).succeeded();
+    let evaluation = run.json();
+    Schema::read("detection-evaluation.schema.json").accepts(&evaluation);
+    let curve = evaluation["results"][0]["curve"].as_object().unwrap();
+    assert_eq!(curve["best_f1"], Value::Null);
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use crate::binary::{pomona, tree};
 use crate::scene::Bench;
-use pomona_cloud::{Camera, PointCloud};
+use pomona_cloud::PointCloud;
 use pomona_fusion::FusedRecord;
 use pomona_scenes::{CameraAxis, Lab, Orientation, Sensor, Shot};
 use std::path::PathBuf;
@@ -13,15 +13,7 @@ const POSE: &str = r#"{"schema": "pomona.transform/1", "to": "base", "from": "ca
 /// Frames `left` and `right` of one lab apple, the right camera 50 mm to the right.
 pub(crate) fn bench() -> Bench {
     let bench = Bench::new();
-    let camera = Camera {
-        width: 320,
-        height: 240,
-        fx: 540.0,
-        fy: 540.0,
-        cx: 159.5,
-        cy: 119.5,
-        ..Shot::paper_camera()
-    };
+    let camera = Shot::paper_camera().with_intrinsics([320, 240], [540.0; 2], [159.5, 119.5]);
     let upright = Orientation {
         axis: CameraAxis::X,
         degrees: 0,

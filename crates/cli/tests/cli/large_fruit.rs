@@ -1,7 +1,6 @@
 //! One flag lets fruit of another size through the whole program: detection, depth check and method.
 
 use crate::binary::{Run, pomona};
-use pomona_cloud::Camera;
 use pomona_scenes::{CameraAxis, Lab, Orientation, Sensor, Shot};
 use serde_json::Value;
 use std::path::Path;
@@ -11,21 +10,11 @@ const RADIUS_M: f64 = 0.070;
 
 /// A frame of one fruit of 70 mm under its branch, with its box.
 fn write_frame(folder: &Path) {
-    let camera = Camera {
-        width: 640,
-        height: 480,
-        fx: 540.0,
-        fy: 540.0,
-        cx: 319.5,
-        cy: 239.5,
-        ..Shot::paper_camera()
-    };
-    let lab = Lab {
-        apple_radius: RADIUS_M,
-        branch_radius: 0.006,
-        branch_length: 0.6,
-        ..Lab::default()
-    };
+    let camera = Shot::paper_camera().with_intrinsics([640, 480], [540.0; 2], [319.5, 239.5]);
+    let mut lab = Lab::default();
+    lab.apple_radius = RADIUS_M;
+    lab.branch_radius = 0.006;
+    lab.branch_length = 0.6;
     let upright = Orientation {
         axis: CameraAxis::X,
         degrees: 0,

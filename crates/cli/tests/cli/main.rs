@@ -26,3 +26,4 @@ mod segment;
 mod settings;
 mod shell;
 mod tutorial;
+mod wood;

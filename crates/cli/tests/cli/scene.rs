@@ -1,19 +1,11 @@
-use pomona_cloud::{Camera, Frame, PixelBox};
+use pomona_cloud::{Frame, PixelBox};
 use pomona_scenes::{CameraAxis, Lab, Orientation, Scene, Sensor, Shot};
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
 /// One lab apple under its branch in a small frame.
 pub(crate) fn scene(id: &str) -> Scene {
-    let camera = Camera {
-        width: 320,
-        height: 240,
-        fx: 540.0,
-        fy: 540.0,
-        cx: 159.5,
-        cy: 119.5,
-        ..Shot::paper_camera()
-    };
+    let camera = Shot::paper_camera().with_intrinsics([320, 240], [540.0; 2], [159.5, 119.5]);
     let upright = Orientation {
         axis: CameraAxis::X,
         degrees: 0,

@@ -1,9 +1,11 @@
 //! Wood in colour images, from the command line.
 
 mod evaluated;
+mod truth_masks;
 
 use crate::binary::{Run, pomona, tree};
 use crate::scene::Bench;
+use crate::schema::Schema;
 use pomona_cloud::{ColorImage, GrayImage};
 use serde_json::{Value, json};
 use std::fs;
@@ -110,6 +112,29 @@ fn maps_agree(bench: &Bench, image: &Value, size: [usize; 2]) {
     }
 }
 
+/// Checks a record that has pictures against its schema, and the schema against records that are wrong.
+#[track_caller]
+fn holds_to_its_schema(record: &Value) {
+    let schema = Schema::read("classes.schema.json");
+    schema.accepts(record);
+    schema.refuses(record, "/schema", Some(json!("pomona.classes/2")));
+    schema.refuses(record, "/unseen", Some(json!(0)));
+    for parent in [
+        "",
+        "/segmenter",
+        "/segmenter/runtime",
+        "/classes/0",
+        "/images/0",
+    ] {
+        schema.refuses(record, &format!("{parent}/extra"), Some(json!(1)));
+    }
+    schema.refuses(record, "/segmenter/runtime/version", None);
+    schema.refuses(record, "/classes/1/role", Some(json!("twig")));
+    schema.refuses(record, "/images/0/share/wood", Some(json!(1.5)));
+    schema.refuses(record, "/images/0/width", Some(json!(0)));
+    schema.refuses(record, "/images/0/wood", None);
+}
+
 #[test]
 fn an_image_and_a_frame_have_three_files_each_and_a_record() {
     let bench = bench();
@@ -137,6 +162,7 @@ fn an_image_and_a_frame_have_three_files_each_and_a_record() {
         ]
     );
     let record = bench.read_json("out/classes.json");
+    holds_to_its_schema(&record);
     assert_eq!(record["schema"], "pomona.classes/1");
     assert_eq!(record["version"], env!("CARGO_PKG_VERSION"));
     assert_eq!(record["segmenter"]["name"], "built-in wood model");
@@ -195,6 +221,7 @@ fn a_later_run_replaces_the_earlier_and_leaves_what_is_not_its_own() {
     assert_eq!(run.json(), bench.read_json("out/classes.json"));
     let image = &run.json()["images"][0];
     assert!(image.get("picture").is_none(), "{image}");
+    Schema::read("classes.schema.json").accepts(&run.json());
     maps_agree(&bench, image, [320, 240]);
     assert!(
         before == bench.read("out/a.wood.png"),
@@ -296,6 +323,7 @@ fn what_is_assumed_about_a_model_is_said_and_recorded() {
         "{}",
         run.err
     );
+    Schema::read("classes.schema.json").accepts(&run.json());
     let notes = run.json()["segmenter"]["notes"].to_string();
     assert!(notes.contains("logits"), "{notes}");
 }

@@ -12,6 +12,7 @@ use std::path::Path;
 
 /// The labels of many images in one file, <https://cocodataset.org/#format-data>.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct CocoDataset {
     /// The images in the file's order, each with its boxes.
     pub images: Vec<CocoImage>,
@@ -21,6 +22,7 @@ pub struct CocoDataset {
 
 /// One image of a [`CocoDataset`].
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct CocoImage {
     /// Its number in the file.
     pub id: u64,
@@ -34,8 +36,22 @@ pub struct CocoImage {
     pub boxes: Vec<LabelledBox>,
 }
 
+impl CocoImage {
+    /// An image of unknown size without boxes.
+    pub fn new(id: u64, file_name: impl Into<String>) -> Self {
+        Self {
+            id,
+            file_name: file_name.into(),
+            width: 0,
+            height: 0,
+            boxes: Vec::new(),
+        }
+    }
+}
+
 /// One class of a [`CocoDataset`].
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct CocoCategory {
     /// Its number, which `class_number` of a box refers to.
     pub id: u64,
@@ -43,8 +59,19 @@ pub struct CocoCategory {
     pub name: String,
 }
 
+impl CocoCategory {
+    /// A class.
+    pub fn new(id: u64, name: impl Into<String>) -> Self {
+        Self {
+            id,
+            name: name.into(),
+        }
+    }
+}
+
 /// One detection of a COCO result file.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct CocoResult {
     /// The image it is of.
     pub image: ImageKey,
@@ -224,10 +251,8 @@ fn parse_results(bytes: &[u8]) -> Result<Vec<CocoResult>, Malformed> {
     }
     let entries: Vec<Entry> = serde_json::from_str(text_of(bytes)?).map_err(|e| {
         let remedy = "give a COCO result list, each entry with image_id, bbox and score";
-        Malformed {
-            remedy: remedy.to_owned(),
-            ..fault(e)
-        }
+        let Malformed { place, problem, .. } = fault(e);
+        Malformed::new(place, problem, remedy)
     })?;
     let results = entries.into_iter().enumerate().map(|(index, entry)| {
         let [x, y, w, h] = entry.bbox;

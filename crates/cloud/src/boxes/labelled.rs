@@ -2,6 +2,7 @@ use super::pixel_box::PixelBox;
 
 /// A box with what its file says of its class.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct LabelledBox {
     /// The box.
     pub bounds: PixelBox,

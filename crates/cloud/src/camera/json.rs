@@ -60,17 +60,9 @@ impl Open3d {
         if skew != 0.0 || below != 0.0 || one != 1.0 {
             return Err(fault("a skewed or scaled matrix"));
         }
-        Ok(Camera {
-            width: self.width,
-            height: self.height,
-            fx,
-            fy,
-            cx,
-            cy,
-            depth_scale: 1.0 / self.depth_scale,
-            frame_id: "camera_color_optical_frame".to_owned(),
-            distortion: None,
-        })
+        let mut camera = Camera::new([self.width, self.height], [fx, fy], [cx, cy]);
+        camera.depth_scale = 1.0 / self.depth_scale;
+        Ok(camera)
     }
 }
 

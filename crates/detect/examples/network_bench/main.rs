@@ -115,11 +115,10 @@ fn frames(
     let mut detectors: Vec<(Box<dyn Detector>, usize)> = Vec::new();
     for (runtime, choice) in RUNTIMES {
         let mut line = Line::new(&name, runtime, 2);
-        let options = DetectorOptions {
-            model: Some(model.clone()),
-            runtime: choice,
-            ..DetectorOptions::default()
-        };
+        let options = DetectorOptions::default().with(|o| {
+            o.model = Some(model.clone());
+            o.runtime = choice;
+        });
         match options.open() {
             Ok(detector) => detectors.push((detector, lines.len())),
             Err(error) => line.absent = Some(error.to_string()),

@@ -24,10 +24,7 @@ fn scene(apples: &[[f64; 3]]) -> ColorImage {
 
 #[test]
 fn it_opens_and_sees_red_balls_before_leaves() {
-    let options = DetectorOptions {
-        runtime: RuntimeChoice::Embedded,
-        ..DetectorOptions::default()
-    };
+    let options = DetectorOptions::default().with(|o| o.runtime = RuntimeChoice::Embedded);
     let detector = options.open().unwrap();
     assert_eq!(detector.report().family.as_deref(), Some("yolov8"));
     assert!(detector.report().notes.is_empty());
@@ -57,11 +54,10 @@ fn it_opens_and_sees_red_balls_before_leaves() {
 
 #[test]
 fn it_has_one_class() {
-    let options = DetectorOptions {
-        runtime: RuntimeChoice::Embedded,
-        class: Some(ClassChoice::Name("pear".to_owned())),
-        ..DetectorOptions::default()
-    };
+    let options = DetectorOptions::default().with(|o| {
+        o.runtime = RuntimeChoice::Embedded;
+        o.class = Some(ClassChoice::Name("pear".to_owned()));
+    });
     let message = options.open().map(|_| ()).unwrap_err().to_string();
     assert!(
         message.contains("class `pear`") && message.contains("`apple`"),

@@ -221,11 +221,10 @@ fn detect(
     class: usize,
     scale: usize,
 ) -> (Family, Vec<Detection>) {
-    let options = DetectorOptions {
-        class: Some(ClassChoice::Number(class)),
-        tiling: TilingChoice::Whole,
-        ..DetectorOptions::default()
-    };
+    let options = DetectorOptions::default().with(|o| {
+        o.class = Some(ClassChoice::Number(class));
+        o.tiling = TilingChoice::Whole;
+    });
     let description = ModelDescription::parse(description, "test.toml").unwrap();
     let detector =
         OnnxDetector::new(Box::new(network), "test.onnx", &description, &options).unwrap();

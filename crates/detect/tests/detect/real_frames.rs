@@ -45,14 +45,13 @@ fn tiles_find_the_small_apples_that_the_whole_image_hides() {
         return;
     };
     let open = |tiling| {
-        let options = DetectorOptions {
-            model: Some(model.clone()),
-            runtime: RuntimeChoice::Embedded,
-            class: Some(ClassChoice::Name("apple".to_owned())),
-            threshold: Some(0.1),
-            tiling,
-            ..DetectorOptions::default()
-        };
+        let options = DetectorOptions::default().with(|o| {
+            o.model = Some(model.clone());
+            o.runtime = RuntimeChoice::Embedded;
+            o.class = Some(ClassChoice::Name("apple".to_owned()));
+            o.threshold = Some(0.1);
+            o.tiling = tiling;
+        });
         options.open().unwrap()
     };
     let (whole, tiled) = (open(TilingChoice::Whole), open(TilingChoice::Automatic));
@@ -80,10 +79,7 @@ fn the_built_in_model_on_real_frames() {
     let Some(frames) = shared("frames") else {
         return;
     };
-    let options = DetectorOptions {
-        runtime: RuntimeChoice::Embedded,
-        ..DetectorOptions::default()
-    };
+    let options = DetectorOptions::default().with(|o| o.runtime = RuntimeChoice::Embedded);
     let detector = options.open().unwrap();
     for name in ["orchard-1218", "orchard-1235"] {
         let (boxes, image) = frame(&frames, name);

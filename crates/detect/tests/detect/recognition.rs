@@ -205,10 +205,7 @@ fn descriptions_and_options_that_contradict_the_model_are_refused() {
         &["1 names", "80 classes"],
     );
     refused(&SQUARE, coco, "class = 80", &["class 80", "0 to 79"]);
-    let choice = |class| DetectorOptions {
-        class: Some(class),
-        ..DetectorOptions::default()
-    };
+    let choice = |class| DetectorOptions::default().with(|o| o.class = Some(class));
     let named = |name: &str| choice(ClassChoice::Name(name.to_owned()));
     refused_with(
         &named("aple"),
@@ -226,18 +223,14 @@ fn descriptions_and_options_that_contradict_the_model_are_refused() {
     );
     let second = choice(ClassChoice::Number(1));
     refused_with(&second, &SQUARE, one, "", &["class 1", "1 classes"]);
-    let threshold = DetectorOptions {
-        threshold: Some(f64::NAN),
-        ..DetectorOptions::default()
-    };
+    let threshold = DetectorOptions::default().with(|o| o.threshold = Some(f64::NAN));
     refused_with(&threshold, &SQUARE, one, "", &["threshold = NaN"]);
-    let tiling = DetectorOptions {
-        tiling: TilingChoice::Grid {
+    let tiling = DetectorOptions::default().with(|o| {
+        o.tiling = TilingChoice::Grid {
             columns: 0,
             rows: 1,
-        },
-        ..DetectorOptions::default()
-    };
+        }
+    });
     refused_with(&tiling, &SQUARE, one, "", &["tiling = 0x1"]);
 }
 

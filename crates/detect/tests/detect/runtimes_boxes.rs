@@ -25,10 +25,7 @@ fn runtimes() -> Vec<RuntimeChoice> {
 
 /// Whether ONNX Runtime can be used here; prints why not.
 fn has_onnx_runtime() -> bool {
-    let options = DetectorOptions {
-        runtime: RuntimeChoice::OnnxRuntime,
-        ..DetectorOptions::default()
-    };
+    let options = DetectorOptions::default().with(|o| o.runtime = RuntimeChoice::OnnxRuntime);
     let opened = options.open();
     if let Err(error) = &opened {
         println!("skipped for ONNX Runtime: {error}");
@@ -38,14 +35,13 @@ fn has_onnx_runtime() -> bool {
 
 fn detectors(model: &Path, class: Option<usize>, tiling: TilingChoice) -> Vec<Box<dyn Detector>> {
     let open = |runtime| {
-        let options = DetectorOptions {
-            model: Some(model.to_owned()),
-            runtime,
-            class: class.map(ClassChoice::Number),
-            threshold: Some(THRESHOLD),
-            tiling,
-            ..DetectorOptions::default()
-        };
+        let options = DetectorOptions::default().with(|o| {
+            o.model = Some(model.to_owned());
+            o.runtime = runtime;
+            o.class = class.map(ClassChoice::Number);
+            o.threshold = Some(THRESHOLD);
+            o.tiling = tiling;
+        });
         options.open().unwrap()
     };
     runtimes().into_iter().map(open).collect()

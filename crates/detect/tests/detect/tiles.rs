@@ -86,10 +86,7 @@ fn detector(tiling: TilingChoice) -> OnnxDetector {
     // What is at most 37 pixels wide lies whole in a tile, more than the margin of cut boxes from its borders.
     let text = "coordinates = 'pixels'\ntile = 96\ntile_overlap = 46\nfill = 0";
     let description = ModelDescription::parse(text, "fake.toml").unwrap();
-    let options = DetectorOptions {
-        tiling,
-        ..DetectorOptions::default()
-    };
+    let options = DetectorOptions::default().with(|o| o.tiling = tiling);
     OnnxDetector::new(Box::new(network()), "fake", &description, &options).unwrap()
 }
 

@@ -15,10 +15,7 @@ impl Detector for FixedDetector {
     }
 
     fn report(&self) -> DetectorReport {
-        DetectorReport {
-            name: "fixed".to_owned(),
-            ..DetectorReport::default()
-        }
+        DetectorReport::new("fixed")
     }
 }
 

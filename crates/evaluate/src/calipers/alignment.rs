@@ -19,6 +19,7 @@ const MOST_TRIPLES: usize = 20_000;
 /// Apples are joined by the names of their boxes. It is a measure of consistency, not of accuracy: an error that
 /// both frames share does not show.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Alignment {
     /// One frame.
     pub first: String,
@@ -41,6 +42,7 @@ pub struct Alignment {
 
 /// One apple of two frames.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct AlignedApple {
     /// Name of its box.
     pub box_name: String,
@@ -50,32 +52,71 @@ pub struct AlignedApple {
     pub fitted: bool,
 }
 
-impl Alignment {
-    pub(super) fn of(first: &FrameAnswer, second: &FrameAnswer) -> Self {
+/// The apples that have a centre in two frames, by the names of their boxes.
+pub(crate) struct SharedCenters<'a> {
+    names: Vec<&'a str>,
+    from: Vec<Point3<f64>>,
+    to: Vec<Point3<f64>>,
+}
+
+impl<'a> SharedCenters<'a> {
+    /// Of a frame and another.
+    pub(crate) fn of(first: &'a FrameAnswer, second: &'a FrameAnswer) -> Self {
         let (a, b) = (centers(first), centers(second));
         let names: Vec<&str> = a
             .keys()
             .filter(|name| b.contains_key(*name))
             .copied()
             .collect();
-        let from: Vec<Point3<f64>> = names.iter().map(|name| a[name]).collect();
-        let to: Vec<Point3<f64>> = names.iter().map(|name| b[name]).collect();
+        Self {
+            from: names.iter().map(|name| a[name]).collect(),
+            to: names.iter().map(|name| b[name]).collect(),
+            names,
+        }
+    }
+
+    /// Their number.
+    pub(crate) fn len(&self) -> usize {
+        self.names.len()
+    }
+
+    /// The motion from the first frame to the second that most of them agree to; `None` where there are too few.
+    pub(crate) fn motion(&self) -> Option<Isometry3<f64>> {
+        robust(&self.from, &self.to)
+    }
+
+    /// The distance of each one's two centres after the motion, and whether it is that of one apple.
+    fn distances(&self, motion: &Isometry3<f64>) -> impl Iterator<Item = (f64, bool)> {
+        let pairs = self.from.iter().zip(&self.to);
+        pairs.map(move |(p, q)| {
+            let distance = (motion * p - q).norm();
+            (distance, distance <= SAME_CENTER_M)
+        })
+    }
+
+    /// The number of those that the motion fits.
+    pub(crate) fn fitted(&self, motion: &Isometry3<f64>) -> usize {
+        self.distances(motion).filter(|(_, fits)| *fits).count()
+    }
+}
+
+impl Alignment {
+    pub(super) fn of(first: &FrameAnswer, second: &FrameAnswer) -> Self {
+        let shared = SharedCenters::of(first, second);
         let mut alignment = Self {
             first: first.id.clone(),
             second: second.id.clone(),
-            shared: names.len(),
+            shared: shared.len(),
             fitted: 0,
             distance: None,
             rotation_angle: None,
             translation: None,
             apples: Vec::new(),
         };
-        let Some(motion) = robust(&from, &to) else {
+        let Some(motion) = shared.motion() else {
             return alignment;
         };
-        for ((name, p), q) in names.iter().zip(&from).zip(&to) {
-            let distance = (motion * p - q).norm();
-            let fitted = distance <= SAME_CENTER_M;
+        for (name, (distance, fitted)) in shared.names.iter().zip(shared.distances(&motion)) {
             alignment.apples.push(AlignedApple {
                 box_name: (*name).to_owned(),
                 distance,

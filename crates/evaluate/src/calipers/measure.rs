@@ -14,6 +14,7 @@ pub const CALIPER_SCHEMA: &str = "pomona.calipers/1";
 
 /// What `calipers.json` holds. Metres.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct CaliperReport {
     /// [`CALIPER_SCHEMA`].
     pub schema: String,
@@ -25,6 +26,7 @@ pub struct CaliperReport {
 
 /// One method over all frames.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct CaliperResult {
     /// Method.
     pub method: String,
@@ -43,6 +45,7 @@ pub struct CaliperResult {
 
 /// What became of one frame.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct CaliperFrame {
     /// Its id.
     pub frame: String,
@@ -58,6 +61,7 @@ pub struct CaliperFrame {
 
 /// One box of a measured apple.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct CaliperRow {
     /// Name of the box.
     pub box_name: String,

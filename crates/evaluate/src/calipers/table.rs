@@ -7,11 +7,22 @@ const COLUMNS: &str = "give CSV with a header and the columns box_name and diame
 
 /// What somebody measured of one apple.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Caliper {
     /// Name of its box.
     pub box_name: String,
     /// Largest diameter about the stem's axis, metres.
     pub diameter: f64,
+}
+
+impl Caliper {
+    /// The diameter, in metres, of the apple in the box of this name.
+    pub fn new(box_name: impl Into<String>, diameter: f64) -> Self {
+        Self {
+            box_name: box_name.into(),
+            diameter,
+        }
+    }
 }
 
 /// Reads a table of measured apples: CSV with at least the columns `box_name` and `diameter_mm`.

@@ -57,10 +57,7 @@ mod tests {
     fn the_page_is_whole_and_needs_nothing_else() {
         let subjects = Subject::named("lab15", Some(2)).unwrap();
         let [paper, robust] = [Method::Paper, Method::Robust].map(|method| {
-            let config = Config {
-                method,
-                ..Config::default()
-            };
+            let config = Config::default().with(|c| c.method = method);
             Picker::new(config).unwrap()
         });
         let evaluation = evaluate(&subjects, &[&paper, &robust], 0, &|| {}).unwrap();

@@ -30,6 +30,7 @@ const TOLERANCE_SIGMAS: f64 = 5.0;
 
 /// What a simulated eye-to-hand calibration is made from.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct CalibrationNoise {
     /// Robot poses at which the target is observed.
     pub poses: usize,
@@ -104,16 +105,13 @@ impl Mounting {
             UnitQuaternion::from_scaled_axis(draws.within(TURN_RANGE_RAD)) * ahead,
         );
         let samples = samples(&robot_from_camera, noise, &mut draws)?;
-        let defaults = Options::default();
-        let options = Options {
-            translation_tolerance_m: defaults
-                .translation_tolerance_m
-                .max(TOLERANCE_SIGMAS * noise.translation_m),
-            rotation_tolerance_rad: defaults
-                .rotation_tolerance_rad
-                .max(TOLERANCE_SIGMAS * noise.rotation_rad),
-            ..defaults
-        };
+        let mut options = Options::default();
+        options.translation_tolerance_m = options
+            .translation_tolerance_m
+            .max(TOLERANCE_SIGMAS * noise.translation_m);
+        options.rotation_tolerance_rad = options
+            .rotation_tolerance_rad
+            .max(TOLERANCE_SIGMAS * noise.rotation_rad);
         let found = calibrate_eye_to_hand(&samples, &options, &mut draws.0)
             .map_err(MountingError::Calibration)?;
         Ok(Self {
@@ -178,11 +176,11 @@ fn samples(
                 Translation3::from(seen.translation.vector + shift),
                 turn * seen.rotation,
             );
-            Ok(PoseSample {
-                id: format!("pose-{number}"),
-                robot_from_flange: transform(&flange)?,
-                camera_from_target: transform(&seen)?,
-            })
+            Ok(PoseSample::new(
+                format!("pose-{number}"),
+                transform(&flange)?,
+                transform(&seen)?,
+            ))
         })
         .collect()
 }

@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 
 /// One answered apple in the base's frame: how far the tool is from where it should be, and why.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct BaseRow {
     /// Place of the tool less the apple's true centre, in the base's axes, metres.
     pub offset: [f64; 3],
@@ -34,6 +35,7 @@ pub struct Term {
 
 /// What puts the tool in another place, metres; each part taken alone.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct PositionTerms {
     /// The centre, in the camera's frame.
     pub sphere_center: Term,
@@ -49,6 +51,7 @@ pub struct PositionTerms {
 
 /// What turns the tool another way, radians; each part taken alone.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct DirectionTerms {
     /// The centre, were the branch known.
     pub sphere_center: Term,
@@ -64,6 +67,7 @@ pub struct DirectionTerms {
 
 /// The tool at the apple as the robot's plan has it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct PlannedRow {
     /// `free`, `blocked`, or the reason of the refusal.
     pub status: String,

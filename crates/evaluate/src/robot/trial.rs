@@ -14,6 +14,7 @@ const BASE: &str = "base_link";
 
 /// A robot to send to the apples of each frame, with a camera that is mounted and calibrated anew for each.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct RobotTrial {
     /// The robot.
     pub robot: Robot,
@@ -22,6 +23,11 @@ pub struct RobotTrial {
 }
 
 impl RobotTrial {
+    /// This robot, calibrated from measurements with this noise.
+    pub fn new(robot: Robot, noise: CalibrationNoise) -> Self {
+        Self { robot, noise }
+    }
+
     /// The camera's place for a frame: it depends on the frame's suite and name and on `seed`, not on the method.
     ///
     /// # Errors

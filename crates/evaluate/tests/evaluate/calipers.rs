@@ -37,21 +37,12 @@ fn two_sights_of_one_tree_are_aligned_and_radii_compared() {
     let [mut first, mut second] = [scene.frame.clone(), scene.frame];
     (first.id, second.id) = ("first".to_owned(), "second".to_owned());
     // Another id draws other numbers, so that the two sights differ a little.
-    let method = Moved(
-        Picker::new(Config {
-            method: Method::Paper,
-            ..Config::default()
-        })
-        .unwrap(),
-    );
+    let method = Moved(Picker::new(Config::default().with(|c| c.method = Method::Paper)).unwrap());
     let calipers: Vec<Caliper> = scene
         .truth
         .apples
         .iter()
-        .map(|apple| Caliper {
-            box_name: apple.bounds.name.clone(),
-            diameter: 2.0 * apple.radius,
-        })
+        .map(|apple| Caliper::new(&apple.bounds.name, 2.0 * apple.radius))
         .collect();
     let report = measure_calipers(&[first, second], &calipers, &[&method], 0).unwrap();
     let result = &report.results[0];
@@ -75,11 +66,7 @@ fn real_frames_within_the_target() {
     let calipers = read_calipers(folder.join("calipers.csv")).unwrap();
     let frames =
         ["orchard-1218", "orchard-1235"].map(|name| Frame::read(folder.join(name)).unwrap());
-    let picker = Picker::new(Config {
-        method: Method::Paper,
-        ..Config::default()
-    })
-    .unwrap();
+    let picker = Picker::new(Config::default().with(|c| c.method = Method::Paper)).unwrap();
     let report = measure_calipers(&frames, &calipers, &[&picker], 0).unwrap();
     let result = &report.results[0];
     assert_eq!(result.apples.len(), 34, "17 apples in each of 2 frames");

@@ -5,11 +5,8 @@ use pomona_evaluate::{EvaluateError, Evaluation, PickMethod, Subject, evaluate};
 use rayon::ThreadPoolBuilder;
 
 fn picker() -> Picker {
-    Picker::new(Config {
-        method: Method::Paper,
-        ..Config::default()
-    })
-    .expect("the default settings make sense")
+    Picker::new(Config::default().with(|c| c.method = Method::Paper))
+        .expect("the default settings make sense")
 }
 
 fn run(threads: usize) -> Evaluation {

@@ -10,28 +10,20 @@ fn run(methods: &[Method], noise: CalibrationNoise, suite: &str, count: usize) -
     let pickers: Vec<Picker> = methods
         .iter()
         .map(|&method| {
-            let config = Config {
-                method,
-                ..Config::default()
-            };
+            let config = Config::default().with(|c| c.method = method);
             Picker::new(config).expect("the default settings make sense")
         })
         .collect();
     let methods: Vec<&dyn PickMethod> = pickers.iter().map(|p| p as &dyn PickMethod).collect();
-    let trial = RobotTrial {
-        robot: Robot::new(ApproachConfig::default()).expect("the default settings make sense"),
-        noise,
-    };
+    let robot = Robot::new(ApproachConfig::default()).expect("the default settings make sense");
+    let trial = RobotTrial::new(robot, noise);
     evaluate_with_robot(&subjects, &methods, 0, &trial, &|| {}).expect("an evaluation")
 }
 
 #[test]
 fn without_noise_the_errors_in_the_base_are_those_in_the_camera() {
-    let exact = CalibrationNoise {
-        poses: 15,
-        rotation_rad: 0.0,
-        translation_m: 0.0,
-    };
+    let mut exact = CalibrationNoise::default();
+    (exact.rotation_rad, exact.translation_m) = (0.0, 0.0);
     let evaluation = run(&[Method::Robust, Method::Paper], exact, "lab15", 5);
     assert_eq!(evaluation.apples.len(), 10);
     for row in &evaluation.apples {

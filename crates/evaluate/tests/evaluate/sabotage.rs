@@ -70,10 +70,7 @@ fn findings(sabotage: Sabotage) -> Vec<Finding> {
     let golden = Golden::read(&root.join("fixtures/golden"), suite).expect("a golden run");
 
     let subjects = Subject::named(&suite.name, suite.count).expect("a suite");
-    let config = Config {
-        method: Method::Paper,
-        ..Config::default()
-    };
+    let config = Config::default().with(|c| c.method = Method::Paper);
     let method = Spoilt {
         method: Picker::new(config).expect("the default settings make sense"),
         sabotage,

@@ -4,6 +4,7 @@ use thiserror::Error;
 /// A window whose bounds are inverted, negative or not finite.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[error("a window from {min} to {max}: give 0 ≤ min < max, both finite")]
+#[non_exhaustive]
 pub struct WindowError {
     /// Lower bound given.
     pub min: f64,

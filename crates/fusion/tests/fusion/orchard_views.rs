@@ -44,11 +44,7 @@ pub(crate) fn views(seed: u64) -> Views {
     let first = pose_towards(Vector3::new(1.0, 0.0, 0.5), 1.0, 0.0, 0.0);
     let middle = first * world.apples()[0].center;
     let distance = (middle - first * Point3::origin()).norm();
-    let picker = Picker::new(Config {
-        method: Method::Robust,
-        ..Config::default()
-    })
-    .unwrap();
+    let picker = Picker::new(Config::default().with(|c| c.method = Method::Robust)).unwrap();
     let mut directions = vec![None; world.apples().len()];
     let frames = [0.0, -0.35, 0.35]
         .into_iter()

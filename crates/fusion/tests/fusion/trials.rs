@@ -20,12 +20,11 @@ fn fused(frames: &[(FrameAnswer, RobotFromCamera)], config: &FusionConfig) -> Fu
 
 /// The stated errors of the trials are whole: nothing is to be added.
 fn exact() -> FusionConfig {
-    FusionConfig {
-        center_floor_m: 0.0,
-        radius_floor_m: 0.0,
-        direction_floor_rad: 0.0,
-        ..FusionConfig::default()
-    }
+    FusionConfig::default().with(|c| {
+        c.center_floor_m = 0.0;
+        c.radius_floor_m = 0.0;
+        c.direction_floor_rad = 0.0;
+    })
 }
 
 #[test]
@@ -36,11 +35,7 @@ fn fused_positions_are_better_than_each_frame_and_their_covariance_is_true() {
     for seed in 0..60 {
         let mut trial = Trial::new(seed);
         let tree = trial.tree(8);
-        let config = FusionConfig {
-            sway_sd_m: 0.0,
-            sway_sd_rad: 0.0,
-            ..exact()
-        };
+        let config = exact().with(|c| (c.sway_sd_m, c.sway_sd_rad) = (0.0, 0.0));
         let frames: Vec<_> = [-0.6, 0.0, 0.6]
             .iter()
             .enumerate()
@@ -155,10 +150,7 @@ fn the_apple_that_moved_is_found_among_those_that_swayed() {
 #[test]
 fn apples_at_rest_are_called_moved_no_more_often_than_the_rate_says() {
     // At a rate of 1 %, so that it can be counted.
-    let config = FusionConfig {
-        moved_rate: 0.01,
-        ..exact()
-    };
+    let config = exact().with(|c| c.moved_rate = 0.01);
     let (mut moved, mut tests) = (0, 0);
     for seed in 0..400 {
         let mut trial = Trial::new(1000 + seed);

@@ -31,6 +31,7 @@ pub struct LabelledDataset {
 
 /// How labels are stored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum LabelForm {

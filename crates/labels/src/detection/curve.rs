@@ -30,17 +30,30 @@ const MOST_POINTS: usize = 400;
 /// assert_eq!(curve.best_f1.unwrap().score, 0.7);
 /// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(
+    test,
+    derive(schemars::JsonSchema),
+    schemars(
+        deny_unknown_fields,
+        description = "Precision over recall at an intersection over union of 0.5, and average precision by both rules."
+    )
+)]
 #[non_exhaustive]
 pub struct Curve {
-    /// Average precision at an intersection over union of 0.5, all points.
+    /// Average precision at an intersection over union of 0.5, all points (PASCAL VOC from 2010 on).
+    #[cfg_attr(test, schemars(with = "pomona_schema::Share"))]
     pub ap50: f64,
-    /// The same, 101 points.
+    /// The same, 101 points (COCO).
+    #[cfg_attr(test, schemars(with = "pomona_schema::Share"))]
     pub ap50_101: f64,
     /// Mean of the average precisions at 0.50, 0.55, … 0.95, all points.
+    #[cfg_attr(test, schemars(with = "pomona_schema::Share"))]
     pub ap50_95: f64,
     /// The same, 101 points: COCO's main figure.
+    #[cfg_attr(test, schemars(with = "pomona_schema::Share"))]
     pub ap50_95_101: f64,
-    /// Where F1 is best; absent where nothing was detected.
+    /// Where F1 is best; `null` in files where nothing was detected.
+    #[cfg_attr(test, schemars(with = "pomona_schema::Nullable<BestF1>"))]
     pub best_f1: Option<BestF1>,
     /// The curve at an intersection over union of 0.5 from the best score down, thinned for plots.
     pub points: Vec<CurvePoint>,
@@ -48,30 +61,38 @@ pub struct Curve {
 
 /// One point of a precision–recall curve.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema), schemars(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct CurvePoint {
     /// Detections of at least this score count.
     pub score: f64,
     /// Share of the labels that they find.
+    #[cfg_attr(test, schemars(with = "pomona_schema::Share"))]
     pub recall: f64,
     /// Share of them that find a label.
+    #[cfg_attr(test, schemars(with = "pomona_schema::Share"))]
     pub precision: f64,
 }
 
 /// The best F1 of a curve: the harmonic mean of precision and recall.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema), schemars(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct BestF1 {
     /// F1.
+    #[cfg_attr(test, schemars(with = "pomona_schema::Share"))]
     pub f1: f64,
     /// The threshold of the score.
     pub score: f64,
     /// Recall there.
+    #[cfg_attr(test, schemars(with = "pomona_schema::Share"))]
     pub recall: f64,
     /// Precision there.
+    #[cfg_attr(test, schemars(with = "pomona_schema::Share"))]
     pub precision: f64,
     /// False positives there per image.
     #[serde(rename = "further_per_image")]
+    #[cfg_attr(test, schemars(range(min = 0)))]
     pub false_positives_per_image: f64,
 }
 

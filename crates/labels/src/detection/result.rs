@@ -9,11 +9,16 @@ use serde::Serialize;
 /// Schema of [`DetectionEvaluation`]; a change of meaning changes its number.
 pub const DETECTION_SCHEMA: &str = "pomona.detection-evaluation/1";
 
-/// What `detection.json` holds: detectors measured on the same labelled images.
+/// Detectors measured on the same labelled images, as `pomona evaluate --detection` writes them to detection.json.
+///
+/// Shares from 0 to 1, sizes in pixels. A detection that finds a label overlaps it by an intersection over union of at
+/// least 0.5 unless said. What cannot be computed is absent, as recall is where there is no label.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema), schemars(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct DetectionEvaluation {
-    /// [`DETECTION_SCHEMA`].
+    /// Name and version of this form.
+    #[cfg_attr(test, schemars(extend("const" = DETECTION_SCHEMA)))]
     pub schema: &'static str,
     /// Version of this program.
     pub version: &'static str,
@@ -24,6 +29,7 @@ pub struct DetectionEvaluation {
     /// Number of bootstrap resamples.
     pub resamples: usize,
     /// Score threshold at which recall, precision and false positives are counted.
+    #[cfg_attr(test, schemars(with = "pomona_schema::Share"))]
     pub threshold: f64,
     /// One for each detector or box file, in the order given.
     pub results: Vec<DetectionResult>,
@@ -33,13 +39,14 @@ pub struct DetectionEvaluation {
 
 /// The data set measured on.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema), schemars(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct DatasetSummary {
     /// Name of the folder or file.
     pub name: String,
     /// How its labels are stored.
     pub form: LabelForm,
-    /// Images.
+    /// Number of images.
     pub images: usize,
     /// Images among them without a label that counts.
     pub background_images: usize,
@@ -53,12 +60,14 @@ pub struct DatasetSummary {
 
 /// The figures of one detector.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema), schemars(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct DetectionResult {
     /// Its name in this evaluation.
     pub name: String,
     /// The detector; absent for boxes of another program.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(test, schemars(with = "pomona_schema::DetectorReport"))]
     pub detector: Option<DetectorReport>,
     /// Detections of any score.
     pub detections: usize,
@@ -93,6 +102,7 @@ pub struct DetectionResult {
 
 /// Counts of the detections of at least the threshold's score.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema), schemars(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct AtThreshold {
     /// Labels found.
@@ -104,26 +114,32 @@ pub struct AtThreshold {
     pub false_positives: usize,
     /// The same per image.
     #[serde(rename = "further_per_image")]
+    #[cfg_attr(test, schemars(range(min = 0)))]
     pub false_positives_per_image: f64,
     /// Mean intersection over union of the labels found and their detections; absent where none is found.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(test, schemars(with = "pomona_schema::Share"))]
     pub mean_iou: Option<f64>,
 }
 
-/// Recall among labels of one size.
+/// Recall among labels of one size: the root of the label's area.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema), schemars(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct SizeRecall {
     /// The size.
     pub size: SizeClass,
     /// Share of its labels found at the threshold.
+    #[cfg_attr(test, schemars(with = "pomona_schema::Proportion"))]
     pub at_threshold: Proportion,
     /// Share of its labels found by a detection of any score.
+    #[cfg_attr(test, schemars(with = "pomona_schema::Proportion"))]
     pub at_any_score: Proportion,
 }
 
 /// One image on which a detector did badly.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema), schemars(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct WorstImage {
     /// Its name in the data set.
@@ -139,6 +155,7 @@ pub struct WorstImage {
 
 /// The differences of two detectors' figures, paired: resampled over the same images.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema), schemars(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct DetectionDifference {
     /// The detector that is subtracted.
@@ -155,4 +172,17 @@ pub struct DetectionDifference {
     pub recall: Estimate,
     /// Of precision at the threshold.
     pub precision: Estimate,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_schema_in_the_docs_is_that_of_the_types() {
+        pomona_schema::assert_in_docs::<DetectionEvaluation>(
+            DETECTION_SCHEMA,
+            "detection-evaluation.schema.json",
+        );
+    }
 }

@@ -45,11 +45,19 @@ impl DetectionSource<'_> {
 
 /// How detectors are evaluated.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct DetectionOptions {
     /// Score threshold at which recall, precision and false positives are counted, 0 to 1.
     pub threshold: f64,
     /// Seed of the bootstrap.
     pub seed: u64,
+}
+
+impl DetectionOptions {
+    /// This threshold and this seed.
+    pub const fn new(threshold: f64, seed: u64) -> Self {
+        Self { threshold, seed }
+    }
 }
 
 /// Measures every source on every image of `dataset`, images in parallel.

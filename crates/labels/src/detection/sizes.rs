@@ -2,14 +2,17 @@ use serde::Serialize;
 
 /// A class of boxes by their size: the root of their area, pixels of the image as it was given.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema), schemars(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct SizeClass {
     /// Its name.
     pub name: &'static str,
     /// Side of a square of the smallest area that belongs to it, pixels.
+    #[cfg_attr(test, schemars(range(min = 0)))]
     pub from_px: f64,
     /// Side of a square of the smallest area that no longer does; absent where there is no bound.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(test, schemars(extend("exclusiveMinimum" = 0)))]
     pub below_px: Option<f64>,
 }
 

@@ -4,22 +4,29 @@ use serde::Serialize;
 
 /// How well two people's centre lines of wood agree.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema), schemars(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct Agreement {
     /// Images that both have drawn.
     pub images: usize,
     /// Length of the first one's centre lines, pixels.
+    #[cfg_attr(test, schemars(range(min = 0)))]
     pub first_length_px: f64,
-    /// Length of the second one's.
+    /// Length of the second one's, pixels.
+    #[cfg_attr(test, schemars(range(min = 0)))]
     pub second_length_px: f64,
     /// Of the first one's length, the share within the tolerance of a centre line of the second's: what a method would
     /// find that drew as the second did.
+    #[cfg_attr(test, schemars(with = "pomona_schema::Proportion"))]
     pub recall: Proportion,
     /// Of the second one's length, the share within the tolerance of a centre line of the first's.
+    #[cfg_attr(test, schemars(with = "pomona_schema::Proportion"))]
     pub precision: Proportion,
     /// The recall of wood at least 4 pixels wide.
+    #[cfg_attr(test, schemars(with = "pomona_schema::Proportion"))]
     pub recall_wide: Proportion,
     /// The precision of wood at least 4 pixels wide.
+    #[cfg_attr(test, schemars(with = "pomona_schema::Proportion"))]
     pub precision_wide: Proportion,
 }
 

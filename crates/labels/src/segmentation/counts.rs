@@ -22,14 +22,17 @@ fn reached(p: f32) -> usize {
 
 /// Wood of some width.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema), schemars(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct WidthClass {
     /// In words.
     pub name: &'static str,
     /// Smallest width in pixels that belongs to it.
+    #[cfg_attr(test, schemars(range(min = 0)))]
     pub from_px: f64,
     /// Width from which on it does not; absent for the widest.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(test, schemars(extend("exclusiveMinimum" = 0)))]
     pub to_px: Option<f64>,
 }
 

@@ -52,6 +52,7 @@ impl SegmentationSource<'_> {
 
 /// How segmenters are evaluated.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct SegmentationOptions {
     /// Probability of wood from which on a pixel is marked, 0.01 to 0.99 in hundredths; the nearest of these counts.
     pub threshold: f64,
@@ -62,6 +63,18 @@ pub struct SegmentationOptions {
     /// Count only what lies within so many radii of the apples that are boxed in each frame, where only that has been
     /// drawn in; `None` counts the whole image.
     pub apple_radii: Option<f64>,
+}
+
+impl SegmentationOptions {
+    /// These options over the whole image.
+    pub const fn new(threshold: f64, tolerance_px: f64, seed: u64) -> Self {
+        Self {
+            threshold,
+            tolerance_px,
+            seed,
+            apple_radii: None,
+        }
+    }
 }
 
 /// Figures with intervals, in this order.

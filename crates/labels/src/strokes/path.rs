@@ -74,7 +74,16 @@ impl Stroke {
     }
 
     /// Distance of a place from the centre line, and the half width at the nearest point of it.
-    pub fn nearest(&self, [x, y]: [f64; 2]) -> (f64, f64) {
+    pub fn nearest(&self, place: [f64; 2]) -> (f64, f64) {
+        self.nearest_point(place)
+            .map_or((f64::INFINITY, 0.0), |(distance, foot)| {
+                (distance, foot.half_width)
+            })
+    }
+
+    /// Distance of a place from the centre line, and the point of the line that is nearest to it; `None` for a stroke
+    /// of fewer than two points.
+    pub fn nearest_point(&self, [x, y]: [f64; 2]) -> Option<(f64, StrokePoint)> {
         let to_piece = |pair: &[StrokePoint]| {
             let (a, b) = (pair[0], pair[1]);
             let (dx, dy) = (b.x - a.x, b.y - a.y);
@@ -86,12 +95,10 @@ impl Stroke {
                 0.0
             };
             let foot = a.towards(&b, t);
-            ((foot.x - x).hypot(foot.y - y), foot.half_width)
+            ((foot.x - x).hypot(foot.y - y), foot)
         };
         let pieces = self.points.windows(2).map(to_piece);
-        pieces
-            .min_by(|a, b| a.0.total_cmp(&b.0))
-            .unwrap_or((f64::INFINITY, 0.0))
+        pieces.min_by(|a, b| a.0.total_cmp(&b.0))
     }
 
     /// Calls `visit` with the pixel index and the distance from the stroke's edge, negative inside, for each pixel of a
@@ -145,6 +152,20 @@ mod tests {
             for sample in stroke.samples() {
                 let (distance, _) = stroke.nearest([sample.point.x, sample.point.y]);
                 prop_assert!(distance < 1e-9 && sample.length <= 1.0 + 1e-9);
+            }
+        }
+
+        #[test]
+        fn the_nearest_point_is_on_the_line_and_no_sample_is_nearer(
+            points in proptest::collection::vec(point(), 2..6),
+            place in (-30.0..70.0, -30.0..70.0),
+        ) {
+            let (stroke, place) = (Stroke::new(StrokeClass::Wood, points), [place.0, place.1]);
+            let (distance, foot) = stroke.nearest_point(place).unwrap();
+            prop_assert!(stroke.nearest([foot.x, foot.y]).0 < 1e-9);
+            for sample in stroke.samples() {
+                let (x, y) = (sample.point.x - place[0], sample.point.y - place[1]);
+                prop_assert!(x.hypot(y) >= distance - 1e-9);
             }
         }
 

@@ -72,10 +72,7 @@ fn outcomes(dataset: &LabelledDataset, detections: &[Vec<Detection>]) -> Vec<Mat
         .collect()
 }
 
-const OPTIONS: DetectionOptions = DetectionOptions {
-    threshold: 0.5,
-    seed: 7,
-};
+const OPTIONS: DetectionOptions = DetectionOptions::new(0.5, 7);
 
 fn evaluated(
     dataset: &LabelledDataset,
@@ -282,10 +279,7 @@ impl Detector for Middle {
     }
 
     fn report(&self) -> DetectorReport {
-        DetectorReport {
-            name: "middle".to_owned(),
-            ..DetectorReport::default()
-        }
+        DetectorReport::new("middle")
     }
 }
 

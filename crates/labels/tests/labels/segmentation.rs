@@ -10,7 +10,7 @@ use orchard::{
     BRANCH, ByColor, Channel, Mark, OPTIONS, Orchard, TWIG, WIDTH, WIRE, blue, by_width, green, is,
     of_value, red, says, source,
 };
-use pomona_labels::{SegmentationOptions, segmentation_page};
+use pomona_labels::segmentation_page;
 use std::ops::Range;
 
 #[test]
@@ -114,10 +114,8 @@ fn wood_is_found_within_the_tolerance_and_no_further() {
 
 #[test]
 fn without_a_tolerance_the_pixels_of_the_line_itself_count() {
-    let options = SegmentationOptions {
-        tolerance_px: 0.0,
-        ..OPTIONS
-    };
+    let mut options = OPTIONS;
+    options.tolerance_px = 0.0;
     let strokes = "wood 0,20.2,2 100,20.2,2";
     for (row, recall) in [(19, 0.0), (20, 0.4), (21, 0.0)] {
         let orchard = Orchard::with(strokes, &[red(row, 0..40)]);
@@ -196,10 +194,8 @@ fn far_wood_behind_a_branch_takes_nothing_from_it() {
 fn about_apples_only_what_is_within_their_radii_counts() {
     let marks = [red(20, 0..60), red(45, 0..100), red(70, 0..100)];
     let orchard = Orchard::with(BRANCH, &marks);
-    let near_apples = SegmentationOptions {
-        apple_radii: Some(2.0),
-        ..OPTIONS
-    };
+    let mut near_apples = OPTIONS;
+    near_apples.apple_radii = Some(2.0);
     let segmenter = ByColor::new(Channel::Red);
     let refused = orchard.measured(&[source(&segmenter)], near_apples);
     says(
@@ -238,10 +234,8 @@ fn a_pixel_is_marked_from_the_threshold_on() {
         (0.8, 0.8, 0.53),
         (0.81, 0.81, 0.0),
     ] {
-        let options = SegmentationOptions {
-            threshold,
-            ..OPTIONS
-        };
+        let mut options = OPTIONS;
+        options.threshold = threshold;
         let evaluation = orchard.channels(&[Channel::Red], options);
         assert!((evaluation.threshold - counts_as).abs() < 1e-12);
         let result = &evaluation.results[0];

@@ -1,3 +1,5 @@
+//! Here and not in `pomona-fusion`, which reads it: that crate depends on this one, and `Config` holds every section.
+
 use pomona_settings::settings;
 
 settings! {

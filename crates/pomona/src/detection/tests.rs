@@ -15,12 +15,11 @@ impl Detector for Fixed {
     }
 
     fn report(&self) -> DetectorReport {
-        DetectorReport {
-            name: "fixed".to_owned(),
-            family: Some("truth".to_owned()),
-            runtime: Some(RuntimeReport::new("none", "1")),
-            notes: vec!["none".to_owned()],
-        }
+        let mut report = DetectorReport::new("fixed");
+        report.family = Some("truth".to_owned());
+        report.runtime = Some(RuntimeReport::new("none", "1"));
+        report.notes = vec!["none".to_owned()];
+        report
     }
 }
 
@@ -31,17 +30,8 @@ type Surface<'a> = &'a dyn Fn(&Vector3<f64>) -> Option<f64>;
 
 /// What a camera of 320 x 240 pixels sees, depth in tenths of a millimetre.
 fn frame(surfaces: &[Surface<'_>]) -> Frame {
-    let camera = Camera {
-        width: 320,
-        height: 240,
-        fx: FOCAL,
-        fy: FOCAL,
-        cx: 159.5,
-        cy: 119.5,
-        depth_scale: 0.0001,
-        frame_id: "camera".to_owned(),
-        distortion: None,
-    };
+    let mut camera = Camera::new([320, 240], [FOCAL; 2], [159.5, 119.5]);
+    camera.depth_scale = 0.0001;
     let mut depth = DepthImage::empty(320, 240);
     for (i, reading) in depth.readings.iter_mut().enumerate() {
         let (u, v) = ((i % 320) as f64, (i / 320) as f64);
@@ -49,13 +39,8 @@ fn frame(surfaces: &[Surface<'_>]) -> Frame {
         let nearest = surfaces.iter().filter_map(|s| s(&ray)).reduce(f64::min);
         *reading = nearest.map_or(0, |z| (z / camera.depth_scale) as u16);
     }
-    Frame {
-        id: "test".to_owned(),
-        camera,
-        color: ColorImage::filled(320, 240, [150, 40, 40]),
-        depth,
-        boxes: None,
-    }
+    let color = ColorImage::filled(320, 240, [150, 40, 40]);
+    Frame::new("test", camera, color, depth)
 }
 
 /// The nearer root of a t² − 2 b t + c = 0.

@@ -63,10 +63,7 @@ mod tests {
         fn the_window_shows_the_whole_sphere(
             c in prop::array::uniform3(-0.4..0.4f64), r in 0.01..0.3f64, d in prop::array::uniform3(-1.0..1.0f64),
         ) {
-            let camera = Camera {
-                width: 1280, height: 960, fx: 1080.0, fy: 1075.0, cx: 640.0, cy: 470.0,
-                depth_scale: 0.001, frame_id: String::new(), distortion: None,
-            };
+            let camera = Camera::new([1280, 960], [1080.0, 1075.0], [640.0, 470.0]);
             let d = Vector3::from(d);
             prop_assume!(d.norm() > 0.1);
             let sphere = Sphere::new(Point3::new(c[0], c[1], c[2] + 0.9), r).unwrap();
@@ -80,17 +77,7 @@ mod tests {
 
     #[test]
     fn a_sphere_about_the_camera_is_seen_everywhere() {
-        let camera = Camera {
-            width: 8,
-            height: 6,
-            fx: 5.0,
-            fy: 5.0,
-            cx: 4.0,
-            cy: 3.0,
-            depth_scale: 0.001,
-            frame_id: String::new(),
-            distortion: None,
-        };
+        let camera = Camera::new([8, 6], [5.0; 2], [4.0, 3.0]);
         let sphere = Sphere::new(Point3::new(0.0, 0.0, 0.1), 0.2).unwrap();
         assert_eq!(
             window_of_sphere(&sphere, &camera, 8, 6),

@@ -75,6 +75,7 @@ impl AppleAnswer {
 
 /// What supports one answer: pixels of the depth image as `v * width + u`, for pictures.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct Evidence {
     /// Pixels on the apple's surface.
     pub surface: Vec<u32>,

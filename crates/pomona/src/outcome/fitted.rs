@@ -103,6 +103,9 @@ pub struct BranchCandidate {
     pub empty_m: f64,
     /// Length that something nearer hides.
     pub hidden_m: f64,
+    /// Probability that it is wood, where the colour image tells; the score is then the probability that it is the
+    /// nearest wood.
+    pub wood: Option<f64>,
 }
 
 impl BranchCandidate {
@@ -125,6 +128,7 @@ impl BranchCandidate {
             odd_m: 0.0,
             empty_m: 0.0,
             hidden_m: 0.0,
+            wood: None,
         }
     }
 }

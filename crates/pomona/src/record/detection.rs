@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 /// How a box was found, and what depth says about it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
+#[non_exhaustive]
 pub struct BoxOriginRecord {
     /// What found it.
     pub found_by: FoundBy,
@@ -20,6 +21,7 @@ pub struct BoxOriginRecord {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[cfg_attr(test, schemars(deny_unknown_fields))]
+#[non_exhaustive]
 pub struct DetectionSummaryRecord {
     /// Name of the detector or of the model's file.
     pub name: String,
@@ -58,6 +60,7 @@ pub struct DetectionSummaryRecord {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[cfg_attr(test, schemars(deny_unknown_fields))]
+#[non_exhaustive]
 pub struct DetectionTimesRecord {
     /// The detector, from the colour image to boxes.
     #[cfg_attr(test, schemars(range(min = 0.0)))]

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[cfg_attr(test, schemars(deny_unknown_fields))]
+#[non_exhaustive]
 pub struct AppleRecord {
     /// Centre: the paper's O.
     pub center: [f64; 3],
@@ -36,6 +37,7 @@ pub struct AppleRecord {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[cfg_attr(test, schemars(deny_unknown_fields))]
+#[non_exhaustive]
 pub struct BranchRecord {
     /// A point on the line.
     pub point: [f64; 3],
@@ -53,6 +55,7 @@ pub struct BranchRecord {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[cfg_attr(test, schemars(deny_unknown_fields))]
+#[non_exhaustive]
 pub struct CandidateRecord {
     /// Point of its axis nearest to the apple's centre.
     pub foot: [f64; 3],
@@ -82,6 +85,11 @@ pub struct CandidateRecord {
     /// Length that something nearer hides.
     #[cfg_attr(test, schemars(range(min = 0.0)))]
     pub hidden: f64,
+    /// Probability that it is wood, where the colour image tells; the score is then the probability that it is the
+    /// nearest wood.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(test, schemars(range(min = 0.0, max = 1.0)))]
+    pub wood: Option<f64>,
 }
 
 impl From<&FittedApple> for AppleRecord {
@@ -123,6 +131,7 @@ impl From<&BranchCandidate> for CandidateRecord {
             odd: candidate.odd_m,
             empty: candidate.empty_m,
             hidden: candidate.hidden_m,
+            wood: candidate.wood,
         }
     }
 }

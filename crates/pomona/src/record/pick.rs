@@ -25,6 +25,7 @@ use serde::{Deserialize, Serialize};
         )
     )
 )]
+#[non_exhaustive]
 pub struct PickRecord {
     /// Number of the box, from 0.
     pub id: usize,
@@ -78,6 +79,7 @@ pub struct PickRecord {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[cfg_attr(test, schemars(deny_unknown_fields, extend("dependentRequired" = { "found_by": ["mark"], "mark": ["found_by"], "merged": ["mark"] })))]
+#[non_exhaustive]
 pub struct BoxRecord {
     /// Name in the box file.
     pub name: String,
@@ -101,6 +103,7 @@ pub struct BoxRecord {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[cfg_attr(test, schemars(deny_unknown_fields))]
+#[non_exhaustive]
 pub struct StageTimesRecord {
     /// Cutting the box out of the depth image.
     #[cfg_attr(test, schemars(range(min = 0.0)))]

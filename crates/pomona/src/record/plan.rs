@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 /// or where it is not known. Metres, radians, seconds.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
+#[non_exhaustive]
 pub struct PlanRecord {
     /// Where the gripper holds the apple.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -27,6 +28,7 @@ pub struct PlanRecord {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[cfg_attr(test, schemars(deny_unknown_fields))]
+#[non_exhaustive]
 pub struct PoseRecord {
     /// Place of the origin.
     pub position: [f64; 3],
@@ -48,6 +50,7 @@ impl From<&Isometry3<f64>> for PoseRecord {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[cfg_attr(test, schemars(deny_unknown_fields))]
+#[non_exhaustive]
 pub struct GripperRecord {
     /// Name of the robot's frame.
     pub frame_id: String,
@@ -81,6 +84,7 @@ pub struct GripperRecord {
         )
     )
 )]
+#[non_exhaustive]
 pub struct ApproachRecord {
     /// `free`; `blocked` where apples must go first that cannot; or the reason of refusal:
     /// `unreachable_from_behind`, `out_of_reach`, `collision`, `gripper_too_small`.
@@ -97,6 +101,7 @@ pub struct ApproachRecord {
 /// The way to an apple and back.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
+#[non_exhaustive]
 pub struct WayRecord {
     /// Direction of approach, a unit vector: the pick's, tilted.
     #[cfg_attr(test, schemars(with = "pomona_schema::UnitVector"))]
@@ -124,6 +129,7 @@ pub struct WayRecord {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[cfg_attr(test, schemars(deny_unknown_fields))]
+#[non_exhaustive]
 pub struct PathRecord {
     /// When the tool passes the pre-grasp.
     #[cfg_attr(test, schemars(range(min = 0.0)))]
@@ -146,6 +152,7 @@ pub struct PathRecord {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[cfg_attr(test, schemars(deny_unknown_fields))]
+#[non_exhaustive]
 pub struct PieceRecord {
     /// `transit`, `approach` or `retreat`.
     #[cfg_attr(test, schemars(extend("enum" = ["transit", "approach", "retreat"])))]
@@ -164,6 +171,7 @@ pub struct PieceRecord {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[cfg_attr(test, schemars(deny_unknown_fields))]
+#[non_exhaustive]
 pub struct SampleRecord {
     /// Since the start of the path.
     #[cfg_attr(test, schemars(range(min = 0.0)))]
@@ -185,6 +193,7 @@ pub struct SampleRecord {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[cfg_attr(test, schemars(deny_unknown_fields))]
+#[non_exhaustive]
 pub struct ClearanceRecord {
     /// Signed distance of the surfaces, negative where they overlap; for a free path a lower bound.
     pub distance: f64,
@@ -210,6 +219,7 @@ pub struct ClearanceRecord {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[cfg_attr(test, schemars(deny_unknown_fields))]
+#[non_exhaustive]
 pub struct OrderRecord {
     /// From 0, the first to be picked.
     pub rank: usize,

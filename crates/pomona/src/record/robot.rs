@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[cfg_attr(test, schemars(deny_unknown_fields))]
+#[non_exhaustive]
 pub struct FallbackRecord {
     /// Direction of approach, a unit vector.
     #[cfg_attr(test, schemars(with = "pomona_schema::UnitVector"))]
@@ -20,6 +21,7 @@ pub struct FallbackRecord {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[cfg_attr(test, schemars(deny_unknown_fields))]
+#[non_exhaustive]
 pub struct RobotRecord {
     /// Name of the robot's frame.
     pub frame_id: String,

@@ -3,6 +3,7 @@ use pomona_approach::{Clearance, Obstacle, ObstacleMap, Order, StartPose};
 
 /// What was planned for a frame, in the robot's frame.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct RobotPlan {
     /// Name of the robot's frame.
     pub frame_id: String,

@@ -5,11 +5,7 @@ use pomona_cloud::Frame;
 
 /// A picker with the default settings.
 pub(crate) fn picker(method: Method) -> Picker {
-    Picker::new(Config {
-        method,
-        ..Config::default()
-    })
-    .unwrap()
+    Picker::new(Config::default().with(|c| c.method = method)).unwrap()
 }
 
 /// The answers for the boxes of a frame.

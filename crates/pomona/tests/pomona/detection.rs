@@ -33,10 +33,7 @@ impl Detector for Truthful {
     }
 
     fn report(&self) -> DetectorReport {
-        DetectorReport {
-            name: "truth".to_owned(),
-            ..DetectorReport::default()
-        }
+        DetectorReport::new("truth")
     }
 }
 

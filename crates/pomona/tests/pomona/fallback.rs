@@ -1,9 +1,7 @@
 //! Ways to come in for refused apples: only where asked for, labelled, and never an answer.
 
 use crate::answers::answer;
-use pomona::{
-    AppleAnswer, Config, DirectionSource, FallbackConfig, FallbackKind, Method, Picker, Status,
-};
+use pomona::{AppleAnswer, Config, DirectionSource, FallbackKind, Method, Picker, Status};
 use pomona_scenes::{Scene, Suite};
 
 /// The lab apple alone; with a plate of readings left of it where `plate` says so.
@@ -38,12 +36,11 @@ fn pick_if(
     kind: FallbackKind,
     least_confidence: f64,
 ) -> AppleAnswer {
-    let mut config = Config {
-        method,
-        fallback: FallbackConfig { kind },
-        ..Config::default()
-    };
-    config.robust.least_confidence = least_confidence;
+    let config = Config::default().with(|c| {
+        c.method = method;
+        c.fallback.kind = kind;
+        c.robust.least_confidence = least_confidence;
+    });
     let picker = Picker::new(config).unwrap();
     answer(&picker, &scene.frame, 0).apples[0].clone()
 }

@@ -12,3 +12,4 @@ mod fallback;
 mod pick;
 mod robot;
 mod robust;
+mod wood;

@@ -108,12 +108,8 @@ fn each_refusal_has_its_status() {
     let b = &mut tiny.frame.boxes.as_mut().unwrap()[0];
     (b.x_max, b.y_max) = (b.x_min + 4.0, b.y_min + 4.0);
     let config = |edit: fn(&mut Config)| {
-        let mut config = Config {
-            method: Method::Paper,
-            ..Config::default()
-        };
-        edit(&mut config);
-        Picker::new(config).unwrap()
+        let paper = Config::default().with(|c| c.method = Method::Paper);
+        Picker::new(paper.with(edit)).unwrap()
     };
     let many = config(|c| c.paper.sphere_min_points = 10_000_000);
     assert_eq!(status(&tiny, &many), (Status::TooFewPoints, false));

@@ -1,18 +1,10 @@
 //! A scene on disk, and the bytes of a scene.
 
-use pomona_cloud::{Camera, Frame};
+use pomona_cloud::Frame;
 use pomona_scenes::{Lab, Orientation, Scene, SceneError, Sensor, Shot, Suite, TRUTH_FILE, Truth};
 
 fn small_scene(seed: u64) -> Scene {
-    let camera = Camera {
-        width: 160,
-        height: 120,
-        fx: 135.0,
-        fy: 135.0,
-        cx: 79.5,
-        cy: 59.5,
-        ..Shot::paper_camera()
-    };
+    let camera = Shot::paper_camera().with_intrinsics([160, 120], [135.0; 2], [79.5, 59.5]);
     let world = Lab::default().world(Orientation::PAPER[3]);
     Shot::new("small", camera, Sensor::paper(), seed).take(&world)
 }

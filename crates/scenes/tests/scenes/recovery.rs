@@ -6,23 +6,13 @@ use pomona_geometry::{Segment, Sphere};
 use pomona_scenes::{Lab, Orientation, Scene, Sensor, Shot};
 
 fn half_size() -> Camera {
-    Camera {
-        width: 640,
-        height: 480,
-        fx: 540.0,
-        fy: 540.0,
-        cx: 319.5,
-        cy: 239.5,
-        ..Shot::paper_camera()
-    }
+    Shot::paper_camera().with_intrinsics([640, 480], [540.0; 2], [319.5, 239.5])
 }
 
 fn lab(orientation: Orientation) -> Scene {
     let world = Lab::default().world(orientation);
-    let shot = Shot {
-        box_margin_px: 0.0,
-        ..Shot::new("lab", half_size(), Sensor::perfect(), 0)
-    };
+    let mut shot = Shot::new("lab", half_size(), Sensor::perfect(), 0);
+    shot.box_margin_px = 0.0;
     shot.take(&world)
 }
 

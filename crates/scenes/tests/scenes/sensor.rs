@@ -17,15 +17,7 @@ const HEIGHT: usize = 240;
 const COUNT: f64 = (WIDTH * HEIGHT) as f64;
 
 fn camera() -> Camera {
-    Camera {
-        width: WIDTH,
-        height: HEIGHT,
-        fx: 270.0,
-        fy: 270.0,
-        cx: 159.5,
-        cy: 119.5,
-        ..Shot::paper_camera()
-    }
+    Shot::paper_camera().with_intrinsics([WIDTH, HEIGHT], [270.0; 2], [159.5, 119.5])
 }
 
 fn wall(z: f64) -> World {
@@ -84,10 +76,7 @@ fn assert_share_or_none(found: usize, of: usize, stated: f64) {
 #[test]
 fn axial_noise_has_the_stated_deviation_and_no_bias() {
     for z in [0.8, 1.5, 3.0] {
-        let sensor = Sensor {
-            range_m: (0.1, 6.0),
-            ..Sensor::paper()
-        };
+        let sensor = Sensor::paper().with(|s| s.range_m = (0.1, 6.0));
         let values = metres(&depth(&wall(z), sensor.clone(), 5), &sensor);
         let (mean, variance) = mean_and_variance(&values);
         // Rounding to a step adds a twelfth of its square.
@@ -133,10 +122,7 @@ fn every_make_has_the_deviation_and_the_edges_that_it_states() {
         );
 
         // Edges alone, without what else moves or moves aside a reading.
-        let still = Sensor {
-            edges: sensor.edges,
-            ..Sensor::perfect()
-        };
+        let still = Sensor::perfect().with(|s| s.edges = sensor.edges);
         let exact = metres(&depth(&wall_and_ball(), Sensor::perfect(), 0), &still);
         let found = metres(&depth(&wall_and_ball(), still.clone(), 9), &still);
         let edge = edges(&exact, still.edges.jump_m);
@@ -158,11 +144,10 @@ fn correlated_noise_keeps_its_deviation_and_is_shared() {
         focal_px: 900.0,
         baseline_m: 0.055,
     };
-    let sensor = Sensor {
-        axial,
-        correlation_px: 4,
-        ..Sensor::perfect()
-    };
+    let sensor = Sensor::perfect().with(|s| {
+        s.axial = axial;
+        s.correlation_px = 4;
+    });
     let values = metres(&depth(&wall(1.0), sensor.clone(), 5), &sensor);
     let (mean, variance) = mean_and_variance(&values);
     let stated = axial.sigma(1.0).powi(2);
@@ -180,21 +165,17 @@ fn correlated_noise_keeps_its_deviation_and_is_shared() {
 
 #[test]
 fn readings_are_multiples_of_the_step() {
-    let sensor = Sensor {
-        step_m: 0.001,
-        depth_scale: 0.0001,
-        ..Sensor::paper()
-    };
+    let sensor = Sensor::paper().with(|s| {
+        s.step_m = 0.001;
+        s.depth_scale = 0.0001;
+    });
     let image = depth(&wall(0.8), sensor, 1);
     assert!(image.readings.iter().all(|r| r % 10 == 0 && *r > 0));
 }
 
 #[test]
 fn out_of_range_there_is_no_reading() {
-    let sensor = || Sensor {
-        range_m: (0.7, 3.5),
-        ..Sensor::perfect()
-    };
+    let sensor = || Sensor::perfect().with(|s| s.range_m = (0.7, 3.5));
     assert_eq!(depth(&wall(0.69), sensor(), 0).reading_count(), 0);
     assert_eq!(depth(&wall(3.51), sensor(), 0).reading_count(), 0);
     assert_eq!(
@@ -244,10 +225,7 @@ fn flying_pixels_are_the_stated_share_of_the_edges_and_lie_between_the_sides() {
     let mut ways = Vec::new();
     let (mut mixed, mut all) = (0, 0);
     for seed in 0..4 {
-        let sensor = Sensor {
-            edges: edges_of(0.3),
-            ..perfect.clone()
-        };
+        let sensor = perfect.clone().with(|s| s.edges = edges_of(0.3));
         let flying = metres(&depth(&wall_and_ball(), sensor, seed), &perfect);
         let edge = edges(&exact, perfect.edges.jump_m);
         all += edge.len();
@@ -289,10 +267,7 @@ fn rims_lose_the_stated_share_and_nothing_else() {
         };
         let image = depth(
             &wall_and_ball(),
-            Sensor {
-                edges,
-                ..perfect.clone()
-            },
+            perfect.clone().with(|s| s.edges = edges),
             3,
         );
         let mut rim = vec![false; exact.len()];
@@ -317,13 +292,12 @@ fn rims_lose_the_stated_share_and_nothing_else() {
 
 #[test]
 fn dropout_takes_its_share_in_patches() {
-    let sensor = Sensor {
-        dropout: Dropout {
+    let sensor = Sensor::perfect().with(|s| {
+        s.dropout = Dropout {
             share: 0.2,
             patch_px: 4,
-        },
-        ..Sensor::perfect()
-    };
+        }
+    });
     let image = depth(&wall(1.0), sensor, 2);
     let lost = image.readings.iter().filter(|r| **r == 0).count();
     assert_eq!(lost % 16, 0);
@@ -349,15 +323,7 @@ fn thin_wood_is_filled_to_the_stated_share_and_thick_wood_wholly() {
         }
         let whole = depth(&world, Sensor::perfect(), 0).reading_count();
         (
-            depth(
-                &world,
-                Sensor {
-                    thin,
-                    ..Sensor::perfect()
-                },
-                0,
-            )
-            .reading_count(),
+            depth(&world, Sensor::perfect().with(|s| s.thin = thin), 0).reading_count(),
             whole,
         )
     };
@@ -376,10 +342,7 @@ fn sunlight_burns_holes_of_the_stated_area_where_the_sun_is_faced() {
         cell_share: 0.2,
         least_cosine: 0.3,
     };
-    let sensor = || Sensor {
-        sunlight,
-        ..Sensor::perfect()
-    };
+    let sensor = || Sensor::perfect().with(|s| s.sunlight = sunlight);
     let mut lost = 0;
     let frames = 12;
     for seed in 0..frames {
@@ -410,10 +373,7 @@ fn bias_is_constant_and_tilted() {
         constant_m: 0.004,
         tilt: (0.01, -0.02),
     };
-    let sensor = Sensor {
-        bias,
-        ..Sensor::perfect()
-    };
+    let sensor = Sensor::perfect().with(|s| s.bias = bias);
     let values = metres(&depth(&wall(1.0), sensor.clone(), 0), &sensor);
     for (x, y) in [(0, 0), (319, 0), (10, 230), (160, 120)] {
         let (right, down) = ((x as f64 - 159.5) / 270.0, (y as f64 - 119.5) / 270.0);
@@ -429,10 +389,7 @@ fn lateral_noise_moves_readings_across_a_slope() {
     let mut world = World::new(Light::default());
     let normal = Vector3::new(0.25, 0.0, -1.0);
     world.add_backdrop(Plane::new(Point3::new(0.0, 0.0, 1.0), normal).unwrap());
-    let sensor = Sensor {
-        lateral_px: 1.5,
-        ..Sensor::perfect()
-    };
+    let sensor = Sensor::perfect().with(|s| s.lateral_px = 1.5);
     let exact = metres(&depth(&world, Sensor::perfect(), 0), &sensor);
     let moved = metres(&depth(&world, sensor.clone(), 8), &sensor);
     let shifts: Vec<f64> = (0..exact.len())
@@ -449,11 +406,10 @@ fn lateral_noise_moves_readings_across_a_slope() {
 
 #[test]
 fn a_wrong_focal_length_and_a_shifted_colour_are_told_by_the_truth_alone() {
-    let sensor = Sensor {
-        focal_error: 0.02,
-        color_shift_px: (2, 0),
-        ..Sensor::perfect()
-    };
+    let sensor = Sensor::perfect().with(|s| {
+        s.focal_error = 0.02;
+        s.color_shift_px = (2, 0);
+    });
     let shot = |sensor| Shot::new("test", camera(), sensor, 0).take(&wall_and_ball());
     let (plain, wrong) = (shot(Sensor::perfect()), shot(sensor));
     assert_eq!(wrong.frame.camera.fx, 1.02 * 270.0);

@@ -146,3 +146,43 @@ fn places_side_by_side_are_seen_as_they_are_in_the_image() {
     let mean = mean_difference(&seen.role(Role::Wood), &whole.role(Role::Wood), asked);
     assert!(mean <= SEAM, "{mean}");
 }
+
+#[test]
+fn several_zooms_give_their_mean() {
+    let at = |zooms: &[f64]| {
+        let mut options = SegmenterOptions::default();
+        options.runtime = RuntimeChoice::Embedded;
+        options.zooms = zooms.to_vec();
+        options.open().unwrap()
+    };
+    let image = drawn(260, 230);
+    let window = PixelWindow {
+        x0: 40,
+        y0: 30,
+        x1: 70,
+        y1: 55,
+    };
+    let seen = |zooms: &[f64]| at(zooms).segment_windows(&image, &[window]).unwrap();
+    let (one, two, both) = (seen(&[]), seen(&[2.0]), seen(&[1.0, 2.0]));
+    let mut difference: f32 = 0.0;
+    for (u, v) in [(40, 30), (52, 41), (69, 54)] {
+        let wood =
+            |seen: &pomona_segment::Segmentation| seen.probability(Role::Wood, u, v).unwrap();
+        assert!((0.5 * (wood(&one) + wood(&two)) - wood(&both)).abs() < 1e-5);
+        difference = difference.max((wood(&one) - wood(&two)).abs());
+    }
+    assert!(difference > 1e-4, "two zooms see the same: {difference}");
+    assert_eq!(both.probability(Role::Wood, 39, 30), None);
+}
+
+#[test]
+fn zooms_that_make_no_sense_are_refused() {
+    for zoom in [0.0, -1.0, f64::NAN, 1e9] {
+        let mut options = SegmenterOptions::default();
+        options.zooms = vec![zoom];
+        let Err(error) = options.open().map(|_| ()) else {
+            panic!("{zoom}");
+        };
+        assert!(error.to_string().contains("from 0.1 to 8"), "{error}");
+    }
+}

@@ -19,14 +19,9 @@ fn a_pick_is_seen_in_the_picture_of_its_cloud() {
     let surface: Vec<u32> = (200..400).collect();
     let branch: Vec<u32> = (0..40).collect();
     let arrow = Some((Point3::new(0.0, 0.05, 0.9), Point3::new(0.0, -0.08, 0.9)));
-    let painted = colored_cloud(
-        &cloud,
-        &[CloudMark {
-            surface: &surface,
-            branch: &branch,
-            arrow,
-        }],
-    );
+    let mut mark = CloudMark::new(&surface, &branch);
+    mark.arrow = arrow;
+    let painted = colored_cloud(&cloud, &[mark]);
     let projection = Projection::Perspective {
         vertical_angle: 0.3,
     };
@@ -37,12 +32,9 @@ fn a_pick_is_seen_in_the_picture_of_its_cloud() {
         projection,
     )
     .unwrap();
-    let options = RenderOptions {
-        width: 200,
-        height: 200,
-        edge_shading: 0.0,
-        ..RenderOptions::default()
-    };
+    let mut options = RenderOptions::default();
+    (options.width, options.height) = (200, 200);
+    options.edge_shading = 0.0;
     let picture = render_cloud(&painted, &view, &options).unwrap();
     for color in [
         palette::SURFACE,
@@ -73,16 +65,20 @@ proptest! {
         (width, height) in (1usize..80, 1usize..80),
     ) {
         let axis = |pick: fn(&(f32, f32, f32)) -> f32| points.iter().map(pick).collect();
-        let cloud = PointCloud { x: axis(|p| p.0), y: axis(|p| p.1), z: axis(|p| p.2), ..PointCloud::default() };
+        let cloud = PointCloud::from_coordinates(axis(|p| p.0), axis(|p| p.1), axis(|p| p.2));
         let ends = ends.map(f64::from);
         let arrow = Some((Point3::new(ends[0], ends[1], ends[2]), Point3::new(ends[3], ends[4], ends[5])));
-        let painted = colored_cloud(&cloud, &[CloudMark { surface: &indices, branch: &indices, arrow }]);
+        let mut mark = CloudMark::new(&indices, &indices);
+        mark.arrow = arrow;
+        let painted = colored_cloud(&cloud, &[mark]);
         prop_assert!(painted.x.iter().chain(&painted.y).chain(&painted.z).all(|c| c.is_finite()));
         prop_assert_eq!(painted.colors.as_ref().map(Vec::len), Some(painted.x.len()));
         let projection = Projection::Orthographic { field_height: 4.0 };
         let eye = Point3::new(0.0, 0.0, -4.0);
         let view = Viewpoint::new(eye, Point3::origin(), Vector3::y(), projection).unwrap();
-        let options = RenderOptions { width, height, point_size: size, edge_shading: shading, ..RenderOptions::default() };
+        let mut options = RenderOptions::default();
+        (options.width, options.height) = (width, height);
+        (options.point_size, options.edge_shading) = (size, shading);
         let picture = render_cloud(&painted, &view, &options).unwrap();
         prop_assert_eq!(picture.pixels.len(), width * height);
         prop_assert_eq!(render_cloud(&painted, &view, &options).unwrap(), picture);

@@ -19,17 +19,7 @@ fn image() -> ColorImage {
 }
 
 fn camera() -> Camera {
-    Camera {
-        width: WIDTH,
-        height: HEIGHT,
-        fx: 400.0,
-        fy: 400.0,
-        cx: 239.5,
-        cy: 179.5,
-        depth_scale: 0.001,
-        frame_id: "camera".into(),
-        distortion: None,
-    }
+    Camera::new([WIDTH, HEIGHT], [400.0; 2], [239.5, 179.5])
 }
 
 fn bounds(x_min: f64, y_min: f64, x_max: f64, y_max: f64) -> PixelBox {
@@ -267,7 +257,8 @@ proptest! {
         (fx, cx) in (wild(), wild()),
     ) {
         let image = ColorImage { width, height, pixels: vec![GROUND; width * height] };
-        let camera = Camera { fx, cx, ..camera() };
+        let mut camera = camera();
+        (camera.fx, camera.cx) = (fx, cx);
         let marks: Vec<AppleMark<'_>> = wilds
             .iter()
             .enumerate()

@@ -2,17 +2,18 @@
 
 use super::drawn;
 use crate::binary::{pomona, tree};
-use pomona_cloud::{ColorImage, GrayImage};
-use serde_json::Value;
+use crate::schema::Schema;
+use pomona_cloud::GrayImage;
+use serde_json::{Value, json};
 use std::fs;
 use tempfile::TempDir;
 
-const SIZE: [usize; 2] = [96, 72];
+pub(super) const SIZE: [usize; 2] = [96, 72];
 
 /// Two tiles of one photograph and one of another, with a branch of 5 px each, a post, and a twig; a second person
 /// who drew half of the first branch; the masks of somebody who marks the branches' centre lines, and of somebody
 /// who marks half of the first one and a row far from it.
-fn bench() -> TempDir {
+pub(super) fn bench() -> TempDir {
     let dir = tempfile::tempdir().unwrap();
     for folder in ["set/images", "good", "poor"] {
         fs::create_dir_all(dir.path().join(folder)).unwrap();
@@ -37,7 +38,7 @@ fn bench() -> TempDir {
 }
 
 /// A mask that is sure of wood in the first pixels of some rows.
-fn mask(dir: &TempDir, name: &str, rows: &[(usize, usize)]) {
+pub(super) fn mask(dir: &TempDir, name: &str, rows: &[(usize, usize)]) {
     let [width, height] = SIZE;
     let mut values = vec![0; width * height];
     for (row, count) in rows {
@@ -51,12 +52,12 @@ fn mask(dir: &TempDir, name: &str, rows: &[(usize, usize)]) {
     mask.write(dir.path().join(name)).unwrap();
 }
 
-fn text(dir: &TempDir, name: &str) -> String {
+pub(super) fn text(dir: &TempDir, name: &str) -> String {
     dir.path().join(name).to_str().unwrap().to_owned()
 }
 
 /// The command line that measures on the bench's strokes.
-fn line(dir: &TempDir, masks: &[&str], more: &[&str]) -> Vec<String> {
+pub(super) fn line(dir: &TempDir, masks: &[&str], more: &[&str]) -> Vec<String> {
     let mut line = ["evaluate", "--segmentation"].map(str::to_owned).to_vec();
     line.push(text(dir, "set"));
     for name in masks {
@@ -67,17 +68,21 @@ fn line(dir: &TempDir, masks: &[&str], more: &[&str]) -> Vec<String> {
     line
 }
 
-fn written(dir: &TempDir) -> Value {
+pub(super) fn written(dir: &TempDir) -> Value {
     serde_json::from_slice(&fs::read(dir.path().join("out/segmentation.json")).unwrap()).unwrap()
 }
 
-fn files(dir: &TempDir) -> Vec<String> {
+pub(super) fn schema() -> Schema {
+    Schema::read("segmentation-evaluation.schema.json")
+}
+
+pub(super) fn files(dir: &TempDir) -> Vec<String> {
     let paths = tree(&dir.path().join("out"));
     paths.iter().map(|p| p.display().to_string()).collect()
 }
 
 #[track_caller]
-fn is(figure: &Value, expected: f64) {
+pub(super) fn is(figure: &Value, expected: f64) {
     let value = figure
         .as_f64()
         .unwrap_or_else(|| panic!("{figure} is no number"));
@@ -114,6 +119,26 @@ fn two_programs_and_a_second_person_in_one_run() {
         ]
     );
     let evaluation = written(&dir);
+    let schema = schema();
+    schema.accepts(&evaluation);
+    for parent in [
+        "",
+        "/strokes",
+        "/agreement",
+        "/results/0",
+        "/results/0/recall_wide",
+        "/differences/0",
+    ] {
+        schema.refuses(&evaluation, &format!("{parent}/extra"), Some(json!(1)));
+    }
+    schema.refuses(
+        &evaluation,
+        "/schema",
+        Some(json!("pomona.segmentation-evaluation/2")),
+    );
+    schema.refuses(&evaluation, "/tolerance_px", Some(json!(-1)));
+    schema.refuses(&evaluation, "/agreement/recall/share", Some(json!(1.5)));
+    schema.refuses(&evaluation, "/results/0/curve/0/precision", None);
     assert_eq!(evaluation["schema"], "pomona.segmentation-evaluation/1");
     assert_eq!(evaluation["strokes"]["name"], "strokes");
     assert_eq!(evaluation["strokes"]["photographs"], 2);
@@ -165,6 +190,7 @@ fn a_later_run_replaces_the_earlier_and_json_is_the_file() {
     );
     let evaluation = written(&dir);
     assert_eq!(evaluation, run.json());
+    schema().accepts(&evaluation);
     assert_eq!(evaluation["strokes"]["images"], 1);
     assert!(evaluation["results"][0].get("recall_thin").is_none());
     assert!(evaluation.get("agreement").is_none());
@@ -215,6 +241,9 @@ fn the_maps_that_segment_writes_are_worth_what_the_model_is() {
     pomona(&[&["segment", &*images, "--out", &*maps][..], &embedded].concat()).succeeded();
     let more = [&["--segmenter", "built-in", "--json"][..], &embedded].concat();
     let evaluation = pomona(&line(&dir, &["maps"], &more)).succeeded().json();
+    let schema = schema();
+    schema.accepts(&evaluation);
+    schema.refuses(&evaluation, "/results/0/segmenter/extra", Some(json!(1)));
     let [model, maps] = [0, 1].map(|i| &evaluation["results"][i]);
     assert_eq!(model["name"], "built-in");
     assert_eq!(maps["name"], "maps");
@@ -366,6 +395,9 @@ fn slips_of_the_command_line_are_usage_errors() {
     let out = text(&dir, "out");
     for (more, word) in [
         ("--strokes s.txt", "--segmentation"),
+        ("lab15 --strokes s.txt", "--segmentation"),
+        ("lab15 --segmenter built-in", "--segmentation"),
+        ("a --calipers c.csv --strokes s.txt", "--segmentation"),
         ("--segmentation x --detection y", "--detection"),
         ("--segmentation x lab15", "--segmentation"),
         (
@@ -395,14 +427,11 @@ fn options_of_another_mode_are_usage_errors() {
         (
             "lab15",
             &[
-                "--strokes s.txt",
                 "--truth-masks m",
                 "--second-strokes s.txt",
-                "--segmenter built-in",
                 "--masks m",
                 "--wood-threshold 0.4",
                 "--tolerance-px 2",
-                "--apple-radii 3",
             ][..],
             "belongs to --segmentation, not to suites and frames with truth",
         ),
@@ -427,7 +456,7 @@ fn options_of_another_mode_are_usage_errors() {
         ),
         (
             "a --calipers c.csv",
-            &["--strokes s.txt", "--masks m"],
+            &["--masks m"],
             "belongs to --segmentation, not to --calipers",
         ),
         (
@@ -437,7 +466,7 @@ fn options_of_another_mode_are_usage_errors() {
         ),
         (
             "--detection x",
-            &["--strokes s.txt", "--wood-threshold 0.5"],
+            &["--wood-threshold 0.5"],
             "belongs to --segmentation, not to --detection",
         ),
         (
@@ -467,124 +496,4 @@ fn options_of_another_mode_are_usage_errors() {
         }
     }
     assert!(tree(dir.path()).is_empty());
-}
-
-#[test]
-fn masks_are_a_truth_as_strokes_are() {
-    let dir = bench();
-    fs::create_dir(dir.path().join("true")).unwrap();
-    for name in ["tree_1", "other_1"] {
-        // The band of the branch: the rows 28 to 32.
-        let rows: Vec<(usize, usize)> = (28..33).map(|row| (row, 96)).collect();
-        mask(&dir, &format!("true/{name}.wood.png"), &rows);
-    }
-    let truth = ["--truth-masks".to_owned(), text(&dir, "true")];
-    let truth = truth.each_ref().map(String::as_str);
-    let run = pomona(&line(&dir, &["good", "poor"], &truth)).succeeded();
-    let title = "Wood in true: 2 images of 2 photographs, masks";
-    assert!(run.out.contains(title), "{}", run.out);
-    let evaluation = written(&dir);
-    assert_eq!(evaluation["strokes"]["truth"], "masks");
-    assert_eq!(evaluation["strokes"]["images"], 2);
-    is(&evaluation["strokes"]["wood_length_px"], 2.0 * 96.0);
-    let [good, poor] = [0, 1].map(|i| &evaluation["results"][i]);
-    is(&good["recall_wide"]["value"], 1.0);
-    is(&good["precision"]["value"], 1.0);
-    is(&good["iou"]["value"], 0.2);
-    is(&poor["recall_wide"]["value"], 0.5);
-    is(&poor["precision"]["value"], 45.0 / 141.0);
-    assert!(good.get("posts").is_none());
-    let expected = ["report.html", "segmentation.json", "worst-2.png"];
-    assert_eq!(files(&dir), expected, "the first misses nothing");
-
-    let small = GrayImage {
-        width: 3,
-        height: 2,
-        values: vec![0; 6],
-    };
-    small
-        .write(dir.path().join("true/tree_1.wood.png"))
-        .unwrap();
-    let before = tree(dir.path());
-    let refused = |words: &[&str]| pomona(&line(&dir, &["good"], &truth)).refused(words);
-    refused(&[
-        "tree_1.wood.png",
-        "3x2 pixels for an image of 96x72",
-        "own size",
-    ]);
-    let gone = ["--truth-masks".to_owned(), text(&dir, "gone")];
-    pomona(&line(&dir, &["good"], &gone.each_ref().map(String::as_str)))
-        .refused(&["gone", "--truth-masks"]);
-    assert_eq!(tree(dir.path()), before);
-}
-
-#[test]
-fn the_frames_that_scenes_writes_have_their_truth_with_them() {
-    let dir = tempfile::tempdir().unwrap();
-    let scenes = text(&dir, "scenes");
-    pomona(&["scenes", "orchard", "--count", "1", "--out", &scenes]).succeeded();
-    let frame = fs::read_dir(&scenes).unwrap().next().unwrap().unwrap();
-    let name = frame.file_name().into_string().unwrap();
-    let classes = GrayImage::read(frame.path().join("classes.png")).unwrap();
-    let mut wood = classes.clone();
-    for value in &mut wood.values {
-        *value = if *value == 1 { 255 } else { 0 };
-    }
-    fs::create_dir(dir.path().join("perfect")).unwrap();
-    let mask = dir.path().join(format!("perfect/{name}.wood.png"));
-    wood.write(mask).unwrap();
-    let evaluation = pomona(&[
-        "evaluate",
-        "--segmentation",
-        &*scenes,
-        "--truth-masks",
-        &*scenes,
-        "--masks",
-        &*text(&dir, "perfect"),
-        "--json",
-        "--out",
-        &*text(&dir, "out"),
-    ])
-    .succeeded()
-    .json();
-    assert_eq!(evaluation["strokes"]["images"], 1);
-    let perfect = &evaluation["results"][0];
-    for figure in ["recall_wide", "precision", "iou"] {
-        is(&perfect[figure]["value"], 1.0);
-    }
-    is(&perfect["calibration_error"], 0.0);
-    assert_eq!(perfect["worst"].as_array().unwrap().len(), 0);
-}
-
-#[test]
-fn what_is_outside_of_the_discs_is_grey_in_the_pictures_of_the_worst() {
-    let dir = tempfile::tempdir().unwrap();
-    let frame = dir.path().join("set/frame");
-    for folder in [&frame, &dir.path().join("set/all")] {
-        fs::create_dir_all(folder).unwrap();
-    }
-    ColorImage::filled(SIZE[0], SIZE[1], [90, 200, 90])
-        .write(frame.join("color.png"))
-        .unwrap();
-    // One apple in the middle, of radius 8.
-    fs::write(frame.join("boxes.txt"), "0 0.5 0.5 0.1667 0.2222\n").unwrap();
-    fs::write(
-        dir.path().join("set/strokes.txt"),
-        "image frame\nwood 0,10.5,2 96,10.5,2\n",
-    )
-    .unwrap();
-    let rows: Vec<(usize, usize)> = (0..SIZE[1]).map(|row| (row, SIZE[0])).collect();
-    mask(&dir, "set/all/frame.wood.png", &rows);
-    let reds = |more: &[&str]| {
-        pomona(&line(&dir, &["set/all"], more)).succeeded();
-        let sheet = ColorImage::read(dir.path().join("out/worst-1.png")).unwrap();
-        let is_red = |p: &&[u8; 3]| p[0] > 150 && p[1] < 120;
-        let is_grey = |p: &&[u8; 3]| p[0].abs_diff(p[2]) < 3 && p[1] > p[0] && p[1] < 170;
-        let count = |of: &dyn Fn(&&[u8; 3]) -> bool| sheet.pixels.iter().filter(|p| of(p)).count();
-        (count(&is_red), count(&is_grey))
-    };
-    let (whole, _) = reds(&[]);
-    let (within, grey) = reds(&["--apple-radii", "1"]);
-    assert!(within > 0 && within * 10 < whole, "{within} of {whole}");
-    assert!(grey > whole / 2, "{grey} of {whole}");
 }

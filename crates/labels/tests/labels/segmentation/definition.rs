@@ -2,10 +2,7 @@
 
 use super::orchard::{ByColor, Channel, OPTIONS, STROKES, painted, read, source};
 use pomona_cloud::ColorImage;
-use pomona_labels::{
-    SegmentationOptions, Stroke, StrokeClass, StrokePoint, evaluate_segmentation,
-    segmentation_images,
-};
+use pomona_labels::{Stroke, StrokeClass, StrokePoint, evaluate_segmentation, segmentation_images};
 use proptest::prelude::*;
 use rand_chacha::ChaCha8Rng;
 use rand_core::{Rng, SeedableRng};
@@ -88,7 +85,8 @@ proptest! {
         image.write(dir.path().join("a.png")).unwrap();
         let images = segmentation_images(dir.path(), read(&text), Path::new(STROKES)).unwrap();
         let segmenter = ByColor::new(Channel::Red);
-        let options = SegmentationOptions { tolerance_px: tolerance, ..OPTIONS };
+        let mut options = OPTIONS;
+        options.tolerance_px = tolerance;
         let sources = [source(&segmenter)];
         let evaluation =
             evaluate_segmentation("random", &images, &[], &sources, &options, &|| {}).unwrap();

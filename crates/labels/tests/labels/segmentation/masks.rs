@@ -6,8 +6,8 @@ use super::orchard::{
 };
 use pomona_cloud::GrayImage;
 use pomona_labels::{
-    LabelsError, PixelVerdict, SegmentationEvaluation, SegmentationImage, SegmentationOptions,
-    TruthKind, evaluate_segmentation, judge_pixels, masked_images,
+    LabelsError, PixelVerdict, SegmentationEvaluation, SegmentationImage, TruthKind,
+    evaluate_segmentation, judge_pixels, masked_images,
 };
 use std::path::Path;
 use tempfile::TempDir;
@@ -181,10 +181,8 @@ fn verdicts_add_up_to_the_figures() {
     let boxes = "0 0.5 0.25 0.3 0.375\n";
     std::fs::write(orchard.dir.path().join("boxes.txt"), boxes).unwrap();
     for apple_radii in [None, Some(1.0)] {
-        let options = SegmentationOptions {
-            apple_radii,
-            ..OPTIONS
-        };
+        let mut options = OPTIONS;
+        options.apple_radii = apple_radii;
         let evaluation = orchard.channels(&[Channel::Red], options);
         let images = orchard.images().unwrap();
         let p: Vec<f32> = painted([WIDTH, HEIGHT], &marks)

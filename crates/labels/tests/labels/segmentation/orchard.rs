@@ -194,12 +194,7 @@ impl Orchard {
     }
 }
 
-pub(crate) const OPTIONS: SegmentationOptions = SegmentationOptions {
-    threshold: 0.5,
-    tolerance_px: 3.0,
-    seed: 7,
-    apple_radii: None,
-};
+pub(crate) const OPTIONS: SegmentationOptions = SegmentationOptions::new(0.5, 3.0, 7);
 
 pub(crate) fn source(segmenter: &ByColor) -> SegmentationSource<'_> {
     SegmentationSource::Segmenter {

@@ -5,8 +5,8 @@ use super::orchard::{
 };
 use pomona_cloud::ColorImage;
 use pomona_labels::{
-    ImageStrokes, LabelsError, SegmentationEvaluation, SegmentationImage, SegmentationOptions,
-    SegmentationSource, agreement, evaluate_segmentation, segmentation_page,
+    ImageStrokes, LabelsError, SegmentationEvaluation, SegmentationImage, SegmentationSource,
+    agreement, evaluate_segmentation, segmentation_page,
 };
 
 #[test]
@@ -133,7 +133,8 @@ fn neither_threads_nor_the_order_of_the_images_change_a_figure() {
 fn another_seed_moves_the_interval_and_nothing_else() {
     let orchard = row_of_trees(|tile| format!("tree-{tile}.png"));
     let with = |seed: u64| {
-        let options = SegmentationOptions { seed, ..OPTIONS };
+        let mut options = OPTIONS;
+        options.seed = seed;
         let evaluation = orchard.channels(&[Channel::Red], options);
         evaluation.results[0].recall_wide.unwrap()
     };

@@ -102,7 +102,7 @@ pub(crate) fn run(args: &Args) -> Result<()> {
         }
     }
     for run in real {
-        findings.extend(real::findings(&program, run)?);
+        findings.extend(real::findings(&program, run, Path::new(OUT))?);
     }
     println!("\n{}", table::of(&findings, args.all));
     let failed = failures(&findings).count();

@@ -1,4 +1,3 @@
-use super::OUT;
 use crate::program::Program;
 use crate::workspace::root;
 use anyhow::{Context, Result, ensure};
@@ -7,15 +6,16 @@ use std::path::Path;
 use std::time::Instant;
 use xtask_gate::{Finding, RealLimits, judge};
 
-/// Measures methods on real frames and holds the figures against their limits; nothing where the frames are not at hand.
-pub(super) fn findings(program: &Program, run: &RealLimits) -> Result<Vec<Finding>> {
+/// Measures methods on real frames, with the files in `folder`, and holds the figures against their limits; nothing where
+/// the frames are not at hand.
+pub(super) fn findings(program: &Program, run: &RealLimits, folder: &Path) -> Result<Vec<Finding>> {
     let missing = run.frames.iter().find(|frame| !root().join(frame).is_dir());
     if let Some(missing) = missing {
         println!("{}: skipped, there is no {}", run.name, missing.display());
         return Ok(Vec::new());
     }
     let start = Instant::now();
-    let out = Path::new(OUT).join(&run.name);
+    let out = folder.join(&run.name);
     let mut command = program.command();
     command
         .args(["evaluate", "--real"])

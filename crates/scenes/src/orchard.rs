@@ -1,3 +1,5 @@
+mod rivals;
+
 use crate::apple::{Apple, Variety};
 use crate::curve::Curve;
 use crate::grow::{Grower, Hanging, across};
@@ -9,6 +11,8 @@ use crate::world::{Bark, Branch, World};
 use nalgebra::{Isometry3, Point3, Rotation3, Translation3, Vector3};
 use pomona_cloud::Camera;
 use rand::RngExt;
+use rand_chacha::ChaCha8Rng;
+use rivals::Handicap;
 
 /// Random parts of an orchard: one target apple, its branch, and their surroundings.
 ///
@@ -28,6 +32,10 @@ pub struct Orchard {
     pub neighbours: usize,
     /// Most branches beside the target's own.
     pub other_branches: usize,
+    /// Fewest and most branches that rival the target's own: farther by 0.15 radii or more, thicker and
+    /// better to see. With none the scene is an ordinary one; with some there are no other branches,
+    /// and `branch_radius` does not count.
+    pub rivals: (usize, usize),
     /// Share of the target that must show; layouts with less are drawn again.
     pub least_visible: f64,
     /// Greatest angle by which the camera looks up, radians.
@@ -43,6 +51,7 @@ impl Default for Orchard {
             leaves: 12,
             neighbours: 2,
             other_branches: 2,
+            rivals: (0, 0),
             least_visible: 0.3,
             tilt: 0.45,
         }
@@ -53,6 +62,14 @@ impl Default for Orchard {
 const ATTEMPTS: u64 = 40;
 
 impl Orchard {
+    /// The default with one to three rivals of the target's branch.
+    pub fn with_rivals() -> Self {
+        Self {
+            rivals: (1, 3),
+            ..Self::default()
+        }
+    }
+
     /// The world of `seed` before `camera`.
     pub fn world(&self, camera: &Camera, seed: u64) -> World {
         self.layout(camera, seed).0
@@ -62,16 +79,34 @@ impl Orchard {
     pub(crate) fn layout(&self, camera: &Camera, seed: u64) -> (World, Raycast) {
         let mut attempt = 0;
         loop {
-            let world = Layout::new(*self, seed, attempt).world();
+            let rivals = self.rivals.1 > 0;
+            let world = if rivals {
+                Layout::of_rivals(*self, seed, attempt).world_with_rivals(seed)
+            } else {
+                Layout::new(*self, seed, attempt).world()
+            };
             let cast = raycast(&world, camera);
             let seen = look_at(&world, camera, &cast, 0, 0.0, 1);
             let share = seen.and_then(|apple| apple.visible_share).unwrap_or(0.0);
             attempt += 1;
-            if share >= self.least_visible || attempt == ATTEMPTS {
+            let good = share >= self.least_visible
+                && (!rivals || Handicap::of(seed).holds(&world, camera, &cast));
+            if good || attempt == ATTEMPTS {
                 return (world, cast);
             }
         }
     }
+}
+
+/// How the bearing branch passes the target's centre.
+struct Course {
+    radius: f64,
+    distance: f64,
+    /// From the centre to the branch.
+    direction: Vector3<f64>,
+    tangent: Vector3<f64>,
+    length: f64,
+    bow: Vector3<f64>,
 }
 
 /// One attempt; in a level frame about the target's centre.
@@ -82,7 +117,10 @@ struct Layout {
 
 impl Layout {
     fn new(orchard: Orchard, seed: u64, attempt: u64) -> Self {
-        let rng = stream(seed, Purpose::Layout, attempt);
+        Self::with(orchard, stream(seed, Purpose::Layout, attempt))
+    }
+
+    fn with(orchard: Orchard, rng: ChaCha8Rng) -> Self {
         Self {
             orchard,
             tree: Grower::new(World::new(Light::default()), rng),
@@ -100,6 +138,12 @@ impl Layout {
         }
         self.spurs_and_leaves(bearing, target.radius);
 
+        let pose = self.pose();
+        self.tree.world.transformed(&pose)
+    }
+
+    /// Where the level frame stands before the camera.
+    fn pose(&mut self) -> Isometry3<f64> {
         let tilt = self.tree.between(0.0..self.orchard.tilt);
         let z = self.drawn(self.orchard.distance);
         // Within the middle of the image, where half the field of view is 0.59 by 0.44 of z.
@@ -107,11 +151,10 @@ impl Layout {
             self.tree.between(-0.25..0.25) * z,
             self.tree.between(-0.15..0.15) * z,
         );
-        let pose = Isometry3::from_parts(
+        Isometry3::from_parts(
             Translation3::new(x, y, z),
             Rotation3::from_axis_angle(&Vector3::x_axis(), -tilt).into(),
-        );
-        self.tree.world.transformed(&pose)
+        )
     }
 
     fn drawn(&mut self, range: (f64, f64)) -> f64 {
@@ -150,9 +193,30 @@ impl Layout {
             .between(nearest..(1.5 * target.radius).max(nearest + 0.002));
         let direction = (self.tree.isotropic() - Vector3::y() * 0.7).normalize();
         let tangent = across(&self.tree.isotropic(), &direction);
-        let foot = Point3::from(direction * distance);
         let length = self.tree.between(0.5..0.9);
         let bow = across(&self.tree.isotropic(), &tangent) * self.tree.between(0.0..0.04);
+        let course = Course {
+            radius,
+            distance,
+            direction,
+            tangent,
+            length,
+            bow,
+        };
+        self.bear(target, &course)
+    }
+
+    /// A branch on its course, and the target on it.
+    fn bear(&mut self, target: &Apple, course: &Course) -> usize {
+        let Course {
+            radius,
+            distance,
+            direction,
+            tangent,
+            length,
+            bow,
+        } = *course;
+        let foot = Point3::from(direction * distance);
         let taper = self.tree.between(0.0..0.35);
         let branch = self.tree.world.add_branch(Branch {
             curve: Curve::through(foot, tangent, length, bow),

@@ -68,6 +68,7 @@
 //!   doi 10.3390/agriculture12081170: the laboratory set-up and the repeats.
 
 mod apple;
+mod attempts;
 mod cameras;
 mod curve;
 mod demo;
@@ -82,6 +83,7 @@ mod random;
 mod ray;
 mod raycast;
 mod repeat;
+mod rivals;
 mod row;
 mod scene;
 mod sensing;

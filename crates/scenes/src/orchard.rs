@@ -1,18 +1,12 @@
-mod rivals;
-
 use crate::apple::{Apple, Variety};
 use crate::curve::Curve;
 use crate::grow::{Grower, Hanging, across};
 use crate::light::Light;
 use crate::random::{Purpose, stream};
-use crate::raycast::{Raycast, raycast};
-use crate::visibility::look_at;
 use crate::world::{Bark, Branch, World};
 use nalgebra::{Isometry3, Point3, Rotation3, Translation3, Vector3};
-use pomona_cloud::Camera;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
-use rivals::Handicap;
 
 /// Random parts of an orchard: one target apple, its branch, and their surroundings.
 ///
@@ -58,9 +52,6 @@ impl Default for Orchard {
     }
 }
 
-/// Layouts tried before one is taken whose target shows too little.
-const ATTEMPTS: u64 = 40;
-
 impl Orchard {
     /// The default with one to three rivals of the target's branch.
     pub fn with_rivals() -> Self {
@@ -69,65 +60,38 @@ impl Orchard {
             ..Self::default()
         }
     }
-
-    /// The world of `seed` before `camera`.
-    pub fn world(&self, camera: &Camera, seed: u64) -> World {
-        self.layout(camera, seed).0
-    }
-
-    /// The world and what the rays meet in it.
-    pub(crate) fn layout(&self, camera: &Camera, seed: u64) -> (World, Raycast) {
-        let mut attempt = 0;
-        loop {
-            let rivals = self.rivals.1 > 0;
-            let world = if rivals {
-                Layout::of_rivals(*self, seed, attempt).world_with_rivals(seed)
-            } else {
-                Layout::new(*self, seed, attempt).world()
-            };
-            let cast = raycast(&world, camera);
-            let seen = look_at(&world, camera, &cast, 0, 0.0, 1);
-            let share = seen.and_then(|apple| apple.visible_share).unwrap_or(0.0);
-            attempt += 1;
-            let good = share >= self.least_visible
-                && (!rivals || Handicap::of(seed).holds(&world, camera, &cast));
-            if good || attempt == ATTEMPTS {
-                return (world, cast);
-            }
-        }
-    }
 }
 
 /// How the bearing branch passes the target's centre.
-struct Course {
-    radius: f64,
-    distance: f64,
+pub(crate) struct Course {
+    pub(crate) radius: f64,
+    pub(crate) distance: f64,
     /// From the centre to the branch.
-    direction: Vector3<f64>,
-    tangent: Vector3<f64>,
-    length: f64,
-    bow: Vector3<f64>,
+    pub(crate) direction: Vector3<f64>,
+    pub(crate) tangent: Vector3<f64>,
+    pub(crate) length: f64,
+    pub(crate) bow: Vector3<f64>,
 }
 
 /// One attempt; in a level frame about the target's centre.
-struct Layout {
-    orchard: Orchard,
-    tree: Grower,
+pub(crate) struct Layout {
+    pub(crate) orchard: Orchard,
+    pub(crate) tree: Grower,
 }
 
 impl Layout {
-    fn new(orchard: Orchard, seed: u64, attempt: u64) -> Self {
+    pub(crate) fn new(orchard: Orchard, seed: u64, attempt: u64) -> Self {
         Self::with(orchard, stream(seed, Purpose::Layout, attempt))
     }
 
-    fn with(orchard: Orchard, rng: ChaCha8Rng) -> Self {
+    pub(crate) fn with(orchard: Orchard, rng: ChaCha8Rng) -> Self {
         Self {
             orchard,
             tree: Grower::new(World::new(Light::default()), rng),
         }
     }
 
-    fn world(mut self) -> World {
+    pub(crate) fn world(mut self) -> World {
         let target = self.apple();
         let bearing = self.bearing_branch(&target);
         for _ in 0..self.up_to(self.orchard.other_branches) {
@@ -143,7 +107,7 @@ impl Layout {
     }
 
     /// Where the level frame stands before the camera.
-    fn pose(&mut self) -> Isometry3<f64> {
+    pub(crate) fn pose(&mut self) -> Isometry3<f64> {
         let tilt = self.tree.between(0.0..self.orchard.tilt);
         let z = self.drawn(self.orchard.distance);
         // Within the middle of the image, where half the field of view is 0.59 by 0.44 of z.
@@ -157,15 +121,15 @@ impl Layout {
         )
     }
 
-    fn drawn(&mut self, range: (f64, f64)) -> f64 {
+    pub(crate) fn drawn(&mut self, range: (f64, f64)) -> f64 {
         self.tree.between(range.0..range.1)
     }
 
-    fn up_to(&mut self, most: usize) -> usize {
+    pub(crate) fn up_to(&mut self, most: usize) -> usize {
         self.tree.rng.random_range(0..=most)
     }
 
-    fn apple(&mut self) -> Apple {
+    pub(crate) fn apple(&mut self) -> Apple {
         let varieties = [
             Variety::Red,
             Variety::Red,
@@ -207,7 +171,7 @@ impl Layout {
     }
 
     /// A branch on its course, and the target on it.
-    fn bear(&mut self, target: &Apple, course: &Course) -> usize {
+    pub(crate) fn bear(&mut self, target: &Apple, course: &Course) -> usize {
         let Course {
             radius,
             distance,
@@ -272,7 +236,7 @@ impl Layout {
     }
 
     /// An apple on the same branch, in a third of the cases touching the target.
-    fn neighbour(&mut self, branch: usize) {
+    pub(crate) fn neighbour(&mut self, branch: usize) {
         let apple = self.apple();
         let bearing = self.tree.world.branches()[branch];
         let target = self.tree.world.apples()[0];
@@ -318,7 +282,7 @@ impl Layout {
 
     /// Spurs on the bearing branch within sight of the target, and the leaves, on
     /// the spurs or at the foot of the target's stalk; half of them towards the camera.
-    fn spurs_and_leaves(&mut self, branch: usize, target_radius: f64) {
+    pub(crate) fn spurs_and_leaves(&mut self, branch: usize, target_radius: f64) {
         let bearing = self.tree.world.branches()[branch];
         let length = bearing.curve.length();
         let mut sites = vec![bearing.curve.point(0.5)];
@@ -388,7 +352,8 @@ impl Layout {
 mod tests {
     use super::*;
     use crate::shot::Shot;
-    use crate::visibility::nearest_branch;
+    use crate::visibility::{look_at, nearest_branch};
+    use pomona_cloud::Camera;
 
     fn camera() -> Camera {
         Shot::paper_camera().with_intrinsics([320, 240], [270.0; 2], [159.5, 119.5])

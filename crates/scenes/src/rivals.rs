@@ -1,9 +1,9 @@
 //! Branches that pass the target besides its own and are easier to see.
 
-use super::{Course, Layout};
 use crate::apple::Apple;
 use crate::curve::Curve;
 use crate::grow::across;
+use crate::orchard::{Course, Layout, Orchard};
 use crate::random::{Purpose, stream};
 use crate::raycast::Raycast;
 use crate::visibility::visible_branch;
@@ -57,7 +57,7 @@ const DRAWS: usize = 200;
 
 /// What makes the bearing branch harder to see than its rivals.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Handicap {
+pub(crate) enum Handicap {
     /// It is a twig.
     Thin,
     /// It is short, and leaves cover both ends.
@@ -70,12 +70,12 @@ pub(super) enum Handicap {
 
 impl Handicap {
     /// That of a seed: each in turn.
-    pub(super) fn of(seed: u64) -> Self {
+    pub(crate) fn of(seed: u64) -> Self {
         [Self::Thin, Self::Short, Self::Hidden, Self::Steep][(seed % 4) as usize]
     }
 
     /// Whether enough of the bearing branch shows to find it, and more of every rival.
-    pub(super) fn holds(self, world: &World, camera: &Camera, cast: &Raycast) -> bool {
+    pub(crate) fn holds(self, world: &World, camera: &Camera, cast: &Raycast) -> bool {
         let (pixels, length) = visible_branch(world, camera, cast, 0, 0);
         let shown = length / world.apples()[0].radius;
         let covered = matches!(self, Self::Short | Self::Hidden);
@@ -88,12 +88,12 @@ impl Handicap {
 
 impl Layout {
     /// As [`Layout::new`], with random numbers that no scene without rivals shares.
-    pub(super) fn of_rivals(orchard: super::Orchard, seed: u64, attempt: u64) -> Self {
+    pub(crate) fn of_rivals(orchard: Orchard, seed: u64, attempt: u64) -> Self {
         Self::with(orchard, stream(seed, Purpose::Rivals, attempt))
     }
 
     /// The target on a branch with a handicap, and its rivals; straight and curved in turns of seeds.
-    pub(super) fn world_with_rivals(mut self, seed: u64) -> World {
+    pub(crate) fn world_with_rivals(mut self, seed: u64) -> World {
         let handicap = Handicap::of(seed);
         let curved = (seed / 4) % 2 == 1;
         let pose = self.pose();
@@ -242,7 +242,6 @@ fn gap(one: &Curve, other: &Curve) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::orchard::Orchard;
     use crate::shot::Shot;
 
     fn world(seed: u64) -> World {

@@ -2,7 +2,10 @@ use crate::terminal::Terminal;
 use crate::{
     calibrate, completions, config, convert, detect, evaluate, inspect, pick, scenes, segment,
 };
-use clap::{ArgAction, ColorChoice, CommandFactory, Parser, Subcommand, value_parser};
+use clap::error::ErrorKind;
+use clap::{
+    ArgAction, ColorChoice, CommandFactory, FromArgMatches, Parser, Subcommand, value_parser,
+};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -59,7 +62,25 @@ enum Command {
     Completions(completions::CompletionsArguments),
 }
 
+/// The command whose options depend on what it measures.
+const EVALUATE: &str = "evaluate";
+
 impl Arguments {
+    /// The command line; ends the program with a message where it makes no sense.
+    pub(crate) fn read() -> Self {
+        let mut command = Self::command();
+        let matches = command.get_matches_mut();
+        let own = matches.subcommand_matches(EVALUATE);
+        if let Some(problem) = own.and_then(|own| evaluate::check_mode(own).err()) {
+            let place = match command.find_subcommand_mut(EVALUATE) {
+                Some(evaluate) => evaluate,
+                None => &mut command,
+            };
+            place.error(ErrorKind::ArgumentConflict, problem).exit();
+        }
+        Self::from_arg_matches(&matches).unwrap_or_else(|error| error.format(&mut command).exit())
+    }
+
     pub(crate) fn run(&self, terminal: Terminal) -> anyhow::Result<()> {
         self.start_log(terminal);
         if let Some(threads) = self.threads {

@@ -7,6 +7,7 @@ mod calipers_text;
 mod detection;
 mod detection_text;
 mod methods;
+mod modes;
 mod real;
 mod real_arguments;
 mod real_pictures;
@@ -26,6 +27,7 @@ use methods::pickers;
 use pomona_evaluate::PickMethod;
 
 pub(crate) use arguments::EvaluateArguments;
+pub(crate) use modes::check_mode;
 
 pub(crate) fn run(arguments: &EvaluateArguments, terminal: Terminal) -> anyhow::Result<()> {
     if let Some(labelled) = &arguments.detection.detection {

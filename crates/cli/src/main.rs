@@ -27,7 +27,6 @@ mod table;
 mod terminal;
 mod wood;
 
-use clap::Parser;
 use std::io::ErrorKind;
 use std::process::ExitCode;
 
@@ -35,7 +34,7 @@ use std::process::ExitCode;
 const BAD_INPUT: u8 = 2;
 
 fn main() -> ExitCode {
-    let arguments = arguments::Arguments::parse();
+    let arguments = arguments::Arguments::read();
     let terminal = terminal::Terminal::new(arguments.color);
     match arguments.run(terminal) {
         Ok(()) => ExitCode::SUCCESS,

@@ -39,8 +39,9 @@
 //!   images, recall by size ([`SizeClass`]) and the worst images; for each pair of sources the paired differences.
 //! - [`detection_page`] is the content of `report.html`.
 //! - [`ImageStrokes`] are the centre lines of wood, peduncles and posts, drawn by eye in an image ([`read_strokes`]).
-//!   [`evaluate_segmentation`] measures on them what a segmenter calls wood: recall along the lines, precision of
-//!   what is marked, calibration; [`agreement`] compares two people's strokes.
+//!   [`evaluate_segmentation`] measures on them, or on masks ([`masked_images`]), what a segmenter calls wood: recall
+//!   along the lines, precision of what is marked, calibration; [`judge_pixels`] says of each pixel what it was counted
+//!   for; [`agreement`] compares two people's strokes.
 //!
 //! # Not here
 //!
@@ -70,10 +71,11 @@ pub use detection::{
 pub use error::LabelsError;
 pub use resampling::Estimate;
 pub use segmentation::{
-    Agreement, CalibrationBin, LevelFigures, MaskReader, SEGMENTATION_SCHEMA,
-    SegmentationDifference, SegmentationEvaluation, SegmentationImage, SegmentationOptions,
-    SegmentationResult, SegmentationSource, StrokeSummary, WidthClass, WidthRecall,
-    WorstSegmentation, agreement, evaluate_segmentation, photograph, segmentation_images,
+    Agreement, CalibrationBin, LevelFigures, MaskReader, MaskValues, PixelVerdict,
+    SEGMENTATION_SCHEMA, SegmentationDifference, SegmentationEvaluation, SegmentationImage,
+    SegmentationOptions, SegmentationResult, SegmentationSource, SegmentationTruth, StrokeSummary,
+    TruthKind, TruthMask, WidthClass, WidthRecall, WorstSegmentation, agreement,
+    evaluate_segmentation, judge_pixels, masked_images, photograph, segmentation_images,
     segmentation_page,
 };
 pub use strokes::{

@@ -11,10 +11,11 @@ use anyhow::{anyhow, bail};
 use clap::Args;
 use pomona_cloud::{ColorImage, GrayImage};
 use pomona_labels::{
-    ImageStrokes, LabelsError, SEGMENTATION_SCHEMA, SegmentationEvaluation, SegmentationImage,
-    SegmentationOptions, SegmentationSource, Stroke, StrokeClass, evaluate_segmentation,
-    read_strokes, segmentation_images, segmentation_page,
+    ImageStrokes, LabelsError, PixelVerdict, SEGMENTATION_SCHEMA, SegmentationEvaluation,
+    SegmentationImage, SegmentationOptions, SegmentationSource, evaluate_segmentation,
+    judge_pixels, masked_images, read_strokes, segmentation_images, segmentation_page,
 };
+use pomona_scenes::{CLASSES_FILE, SceneClass};
 use pomona_segment::{Role, Segmenter};
 use pomona_view::{ContactSheetImage, tint};
 use std::path::{Path, PathBuf};
@@ -32,14 +33,20 @@ const OPACITY: f32 = 0.6;
 /// What `--segmentation` measures.
 #[derive(Clone, Debug, Default, Args)]
 pub(super) struct SegmentationArguments {
-    /// Measure masks of wood on strokes drawn by eye: the folder of the images (or of their `images/`, or of frames).
+    /// Measure masks of wood on strokes drawn by eye, or on true masks: the folder of the images (or of their `images/`,
+    /// or of frames).
     #[arg(long, value_name = "FOLDER", help_heading = HEADING, group = STROKED, conflicts_with_all = ["subjects", "methods", "variants", "SettingValues", "calipers", "detection"])]
     pub(super) segmentation: Option<PathBuf>,
     /// The strokes, also with --real. Default: strokes.txt in the folder; with --real wood.txt in each frame's folder.
-    #[arg(long, value_name = "FILE", requires = STROKED, help_heading = HEADING)]
+    #[arg(long, value_name = "FILE", requires = STROKED, conflicts_with = "truth_masks", help_heading = HEADING)]
     pub(super) strokes: Option<PathBuf>,
+    /// Masks as the truth in place of strokes: a folder with NAME.wood.png (or NAME.png) for each image, grey, 255 for
+    /// wood and 0 for the rest; or a folder of frames with classes.png, as `pomona scenes` writes them. Images without
+    /// a mask are left out.
+    #[arg(long, value_name = "FOLDER", requires = "segmentation", help_heading = HEADING)]
+    truth_masks: Option<PathBuf>,
     /// A second person's strokes of some of the images, for the agreement of their centre lines with these.
-    #[arg(long, value_name = "FILE", requires = "segmentation", help_heading = HEADING)]
+    #[arg(long, value_name = "FILE", requires = "segmentation", conflicts_with = "truth_masks", help_heading = HEADING)]
     second_strokes: Option<PathBuf>,
     /// A segmentation model to measure (ONNX), or `built-in`; may be repeated. Default: built-in, unless --masks are
     /// given. With --real the model that tells the methods where wood is, or `none`; default: built-in, unless
@@ -73,7 +80,7 @@ fn parse_tolerance(text: &str) -> Result<f64, String> {
     value.ok_or_else(|| "give a number from 0 to 100".to_owned())
 }
 
-/// Measures the segmenters on the first `count` images in `folder` that have strokes.
+/// Measures the segmenters on the first `count` images in `folder` that have strokes, or a true mask.
 pub(super) fn run(
     own: &SegmentationArguments,
     settings: &DetectorSettings,
@@ -83,8 +90,7 @@ pub(super) fn run(
     terminal: Terminal,
 ) -> anyhow::Result<()> {
     let output = results.claim(SEGMENTATION, SEGMENTATION_SCHEMA, is_sheet)?;
-    let file = own.strokes.clone().unwrap_or_else(|| folder.join(STROKES));
-    let mut images = segmentation_images(folder, strokes(&file, "--strokes")?, &file)?;
+    let (truth, mut images) = own.images(folder)?;
     images.truncate(count.unwrap_or(usize::MAX));
     let second = match &own.second_strokes {
         Some(path) => strokes(path, "--second-strokes")?,
@@ -113,12 +119,12 @@ pub(super) fn run(
     options.apple_radii = own.apple_radii;
     let bar = progress::bar(images.len());
     let evaluation =
-        evaluate_segmentation(&stem(&file), &images, &second, &sources, &options, &|| {
+        evaluate_segmentation(&stem(&truth), &images, &second, &sources, &options, &|| {
             bar.inc(1);
         })?;
     bar.finish_and_clear();
     let files = output.stage()?;
-    let sheets = sheets(&images, &sources, &evaluation, &files)?;
+    let sheets = sheets(&images, &sources, &evaluation, &options, &files)?;
     files.write_text(SEGMENTATION, &json(&evaluation)?)?;
     files.write_text(REPORT, &segmentation_page(&evaluation, &sheets)?)?;
     files.publish()?;
@@ -129,6 +135,24 @@ pub(super) fn run(
 }
 
 impl SegmentationArguments {
+    /// The file of strokes or the folder of masks, and the images that it names.
+    fn images(&self, folder: &Path) -> anyhow::Result<(PathBuf, Vec<SegmentationImage>)> {
+        if let Some(masks) = &self.truth_masks {
+            let classes = (CLASSES_FILE, SceneClass::Wood as u8);
+            let images = masked_images(folder, masks, classes).map_err(|error| match error {
+                LabelsError::Io { .. } => {
+                    anyhow!("{error}; give a folder of masks by --truth-masks")
+                }
+                error => error.into(),
+            })?;
+            return Ok((masks.clone(), images));
+        }
+        let file = self.strokes.clone().unwrap_or_else(|| folder.join(STROKES));
+        let strokes = strokes(&file, "--strokes")?;
+        let images = segmentation_images(folder, strokes, &file)?;
+        Ok((file, images))
+    }
+
     /// Opens the models, each under a name of its own.
     fn open(
         &self,
@@ -164,7 +188,14 @@ impl SegmentationArguments {
 /// Reads the strokes that `option` names.
 fn strokes(file: &Path, option: &str) -> anyhow::Result<Vec<ImageStrokes>> {
     read_strokes(file).map_err(|error| match error {
-        LabelsError::Io { .. } => anyhow!("{error}; give a file of strokes by {option}"),
+        LabelsError::Io { .. } => {
+            let masks = if option == "--strokes" {
+                ", or masks by --truth-masks"
+            } else {
+                ""
+            };
+            anyhow!("{error}; give a file of strokes by {option}{masks}")
+        }
         error => error.into(),
     })
 }
@@ -174,7 +205,7 @@ fn mask_reader(
     folder: &Path,
 ) -> impl Fn(&SegmentationImage, [usize; 2]) -> Result<Vec<f32>, LabelsError> + Sync {
     move |image, [width, height]| {
-        let name = Path::new(&image.strokes.name);
+        let name = Path::new(&image.name);
         // A frame's folder has its whole name; an image's file loses its ending.
         let is_file = image.path.file_name() == name.file_name();
         let stem = if is_file {
@@ -213,18 +244,16 @@ fn sheets(
     images: &[SegmentationImage],
     sources: &[SegmentationSource<'_>],
     evaluation: &SegmentationEvaluation,
+    options: &SegmentationOptions,
     output: &Staging<'_>,
 ) -> anyhow::Result<Vec<String>> {
     let mut names = Vec::new();
     for (number, (result, source)) in evaluation.results.iter().zip(sources).enumerate() {
         let mut pictures = Vec::new();
         for worst in &result.worst {
-            for image in images
-                .iter()
-                .filter(|image| image.strokes.name == worst.image)
-            {
+            for image in images.iter().filter(|image| image.name == worst.image) {
                 pictures.push(ContactSheetImage::new(
-                    marked(image, source, evaluation)?,
+                    marked(image, source, options)?,
                     Vec::new(),
                     format!(
                         "-{:.0} +{} {}",
@@ -238,49 +267,32 @@ fn sheets(
     Ok(names)
 }
 
-/// The image with what is marked and right in green, marked and wrong in red, and missed in yellow; far wood is left
-/// as it is.
+/// The image with what is marked and right in green, marked and wrong in red, and missed in yellow; what does not count
+/// is grey, and far wood is left as it is.
 fn marked(
     image: &SegmentationImage,
     source: &SegmentationSource<'_>,
-    evaluation: &SegmentationEvaluation,
+    options: &SegmentationOptions,
 ) -> anyhow::Result<ColorImage> {
     const RIGHT: [u8; 3] = [30, 235, 60];
     const WRONG: [u8; 3] = [255, 30, 30];
     const MISSED: [u8; 3] = [255, 222, 0];
+    const OUTSIDE: [u8; 3] = [128; 3];
     let pixels = ColorImage::read(&image.path)?;
+    let size = [pixels.width, pixels.height];
     let p = match source {
         SegmentationSource::Segmenter { segmenter, .. } => {
             segmenter.segment(&pixels)?.role(Role::Wood)
         }
-        SegmentationSource::Masks { read, .. } => read(image, [pixels.width, pixels.height])?,
+        SegmentationSource::Masks { read, .. } => read(image, size)?,
     };
-    let edge_of = |class: StrokeClass, place: [f64; 2]| {
-        let edge = |stroke: &Stroke| {
-            let (distance, half_width) = stroke.nearest(place);
-            distance - half_width
-        };
-        image
-            .strokes
-            .of(class)
-            .map(edge)
-            .fold(f64::INFINITY, f64::min)
-    };
-    let tolerance = evaluation.tolerance_px;
-    let color = |k: usize| {
-        let place = [
-            (k % pixels.width) as f64 + 0.5,
-            (k / pixels.width) as f64 + 0.5,
-        ];
-        let edge = edge_of(StrokeClass::Wood, place);
-        match f64::from(p[k]) >= evaluation.threshold {
-            true if edge <= tolerance => Some(RIGHT),
-            // It does not count.
-            true if edge_of(StrokeClass::Far, place) <= tolerance => None,
-            true => Some(WRONG),
-            false if edge <= 0.0 => Some(MISSED),
-            false => None,
-        }
+    let verdicts = judge_pixels(image, size, &p, options)?;
+    let color = |k: usize| match verdicts[k] {
+        PixelVerdict::Right => Some(RIGHT),
+        PixelVerdict::Wrong => Some(WRONG),
+        PixelVerdict::Missed => Some(MISSED),
+        PixelVerdict::Outside => Some(OUTSIDE),
+        _ => None,
     };
     Ok(tint(&pixels, color, OPACITY)?)
 }

@@ -1,7 +1,7 @@
 use super::text_table::{known, table};
 use crate::summary::plural;
 use crate::terminal::Terminal;
-use pomona_labels::{Estimate, SegmentationEvaluation, SegmentationResult};
+use pomona_labels::{Estimate, SegmentationEvaluation, SegmentationResult, TruthKind};
 
 /// A segmentation evaluation as tables of text.
 pub(super) fn tables(evaluation: &SegmentationEvaluation, terminal: Terminal) -> String {
@@ -11,7 +11,10 @@ pub(super) fn tables(evaluation: &SegmentationEvaluation, terminal: Terminal) ->
         strokes.name,
         plural(strokes.images, "image"),
         plural(strokes.photographs, "photograph"),
-        plural(strokes.wood, "stroke"),
+        match strokes.truth {
+            TruthKind::Masks => "masks".to_owned(),
+            _ => plural(strokes.wood, "stroke"),
+        },
         evaluation.tolerance_px,
         evaluation.threshold
     );

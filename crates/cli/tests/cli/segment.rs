@@ -1,6 +1,7 @@
 //! Wood in colour images, from the command line.
 
 mod evaluated;
+mod truth_masks;
 
 use crate::binary::{Run, pomona, tree};
 use crate::scene::Bench;

@@ -1,4 +1,4 @@
-use super::result::{SegmentationEvaluation, SegmentationResult};
+use super::result::{SegmentationEvaluation, SegmentationResult, TruthKind};
 use crate::cells::{COLORS, difference, estimate};
 use crate::error::LabelsError;
 use pomona_report::html::{escape, figures, heading, page, paragraph, table};
@@ -18,17 +18,23 @@ pub fn segmentation_page(
     sheets: &[String],
 ) -> Result<String, LabelsError> {
     let strokes = &evaluation.strokes;
+    let wood = match strokes.truth {
+        TruthKind::Strokes => format!(
+            "{} strokes of wood, {:.0} px long, and {:.0} px of posts and wires",
+            strokes.wood, strokes.wood_length_px, strokes.post_length_px
+        ),
+        TruthKind::Masks => format!(
+            "masks of wood, whose centre lines are {:.0} px long",
+            strokes.wood_length_px
+        ),
+    };
     let mut body = paragraph(&format!(
-        "pomona {}. {}: {} images of {} photographs, {} strokes of wood, {:.0} px long, and {:.0} px of posts and \
-         wires. Wood is found where a pixel within {} px of its centre line is marked, and a marked pixel is right \
+        "pomona {}. {}: {} images of {} photographs, {wood}. Wood is found where a pixel within {} px of its centre line is marked, and a marked pixel is right \
          within {} px of wood. Intervals are 95 %: bootstrap over photographs ({} draws, seed {}).",
         evaluation.version,
         strokes.name,
         strokes.images,
         strokes.photographs,
-        strokes.wood,
-        strokes.wood_length_px,
-        strokes.post_length_px,
         evaluation.tolerance_px,
         evaluation.tolerance_px,
         evaluation.resamples,
@@ -168,7 +174,7 @@ fn plots(evaluation: &SegmentationEvaluation) -> Result<Vec<(String, String)>, P
                 &reliability,
             )?,
             format!(
-                "Calibration, without the pixels along the strokes' edges; the grey line is right. {keys}."
+                "Calibration, without the pixels along the edges of wood; the grey line is right. {keys}."
             ),
         ),
     ])
@@ -210,7 +216,8 @@ fn worst(result: &SegmentationResult, sheet: &str) -> String {
         let name = escape(sheet);
         let figure = format!(
             "<figure><img src=\"{name}\" alt=\"pictures of the images below\" style=\"width: 100%\">\
-             <figcaption>Green: marked and right; red: marked and wrong; yellow: wood that is missed.</figcaption>\
+             <figcaption>Green: marked and right; red: marked and wrong; yellow: wood that is missed; grey: \
+             it does not count.</figcaption>\
              </figure>\n"
         );
         text += &figure;

@@ -7,7 +7,7 @@ use serde::Serialize;
 /// Schema of [`SegmentationEvaluation`]; a change of meaning changes its number.
 pub const SEGMENTATION_SCHEMA: &str = "pomona.segmentation-evaluation/1";
 
-/// Masks of wood measured on the same strokes, as `pomona evaluate --segmentation` writes them to segmentation.json.
+/// Masks of wood measured on the same images, as `pomona evaluate --segmentation` writes them to segmentation.json.
 ///
 /// Shares from 0 to 1, lengths and widths in pixels. What cannot be computed is absent.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -19,7 +19,7 @@ pub struct SegmentationEvaluation {
     pub schema: &'static str,
     /// Version of this program.
     pub version: &'static str,
-    /// The images and their strokes.
+    /// The images, and the strokes or masks that are the truth.
     pub strokes: StrokeSummary,
     /// Distance in pixels within which wood is found and a mark is right.
     #[cfg_attr(test, schemars(range(min = 0)))]
@@ -41,25 +41,39 @@ pub struct SegmentationEvaluation {
     pub differences: Vec<SegmentationDifference>,
 }
 
-/// The strokes measured on.
+/// The strokes or masks measured on.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema), schemars(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct StrokeSummary {
-    /// Name of the file.
+    /// Name of the file, or of the folder of masks.
     pub name: String,
+    /// Which of the two they are.
+    pub truth: TruthKind,
     /// Number of images.
     pub images: usize,
     /// Number of photographs that they are cut from; intervals are over these.
     pub photographs: usize,
-    /// Number of strokes of wood.
+    /// Number of strokes of wood; 0 for masks.
     pub wood: usize,
-    /// Their length in pixels.
+    /// Length in pixels of the centre lines of wood.
     #[cfg_attr(test, schemars(range(min = 0)))]
     pub wood_length_px: f64,
     /// Length in pixels of posts and the like.
     #[cfg_attr(test, schemars(range(min = 0)))]
     pub post_length_px: f64,
+}
+
+/// What is taken for true.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum TruthKind {
+    /// Strokes drawn by eye.
+    Strokes,
+    /// Masks; their centre lines are found by thinning.
+    Masks,
 }
 
 /// The figures of one segmenter at the threshold, with intervals.
@@ -83,7 +97,7 @@ pub struct SegmentationResult {
     /// Of the marked pixels, the share near wood.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub precision: Option<Estimate>,
-    /// Intersection over union of marked pixels and the strokes' bands.
+    /// Intersection over union of marked pixels and the strokes' bands, or the true masks.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub iou: Option<Estimate>,
     /// Of the length of posts and wires, the share that is marked.

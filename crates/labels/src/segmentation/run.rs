@@ -3,13 +3,14 @@ use super::counts::{BINS, LEVELS, PixelCounts, WIDE, WIDTHS, level, reaching};
 use super::images::{SegmentationImage, photograph};
 use super::result::{
     CalibrationBin, LevelFigures, SEGMENTATION_SCHEMA, SegmentationDifference,
-    SegmentationEvaluation, SegmentationResult, StrokeSummary, WidthRecall, WorstSegmentation,
+    SegmentationEvaluation, SegmentationResult, StrokeSummary, TruthKind, WidthRecall,
+    WorstSegmentation,
 };
-use super::truth::{Discs, Truth};
+use super::truth::Truth;
 use crate::error::LabelsError;
 use crate::resampling::{Estimate, Resampled};
-use crate::strokes::{ImageStrokes, Stroke, StrokeClass, StrokePoint};
-use pomona_cloud::{ColorImage, Frame, PixelBox, read_boxes};
+use crate::strokes::{ImageStrokes, Stroke, StrokeClass};
+use pomona_cloud::ColorImage;
 use pomona_segment::{Role, Segmenter};
 use pomona_statistics::RESAMPLES;
 use rayon::prelude::*;
@@ -119,7 +120,7 @@ fn shares(sum: &PixelCounts, threshold: usize) -> [[f64; 2]; FIGURES] {
 ///
 /// # Errors
 ///
-/// The first image that cannot be read or segmented, or whose strokes lie outside of it.
+/// The first image that cannot be read or segmented, whose strokes lie outside of it, or whose mask cannot be used.
 pub fn evaluate_segmentation(
     name: &str,
     images: &[SegmentationImage],
@@ -128,7 +129,7 @@ pub fn evaluate_segmentation(
     options: &SegmentationOptions,
     done: &(dyn Fn() + Sync),
 ) -> Result<SegmentationEvaluation, LabelsError> {
-    let by_image: Vec<Vec<PixelCounts>> = images
+    let counts: Vec<(Vec<PixelCounts>, f64)> = images
         .par_iter()
         .map(|image| {
             let counts = count(image, sources, options);
@@ -136,10 +137,11 @@ pub fn evaluate_segmentation(
             counts
         })
         .collect::<Result<_, _>>()?;
+    let (by_image, lengths): (Vec<Vec<PixelCounts>>, Vec<f64>) = counts.into_iter().unzip();
     let mut photographs: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
     for (number, image) in images.iter().enumerate() {
         photographs
-            .entry(photograph(&image.strokes.name))
+            .entry(photograph(&image.name))
             .or_default()
             .push(number);
     }
@@ -169,13 +171,19 @@ pub fn evaluate_segmentation(
         let pair = resampled(&[&counted[first], &counted[second]], figure)?;
         Some(pair.difference(0, 1, 0))
     };
-    let strokes: Vec<ImageStrokes> = images.iter().map(|image| image.strokes.clone()).collect();
+    let strokes: Vec<ImageStrokes> = images.iter().filter_map(|i| i.strokes().cloned()).collect();
+    let mut summary = summary(name, &strokes, photographs.len());
+    if images.iter().any(|image| image.strokes().is_none()) {
+        summary.truth = TruthKind::Masks;
+        summary.images = images.len();
+        summary.wood_length_px = lengths.iter().sum();
+    }
     Ok(SegmentationEvaluation {
         schema: SEGMENTATION_SCHEMA,
         version: env!("CARGO_PKG_VERSION"),
-        strokes: summary(name, &strokes, photographs.len()),
+        strokes: summary,
         tolerance_px: options.tolerance_px,
-        threshold: level(threshold),
+        threshold: marking_threshold(options),
         seed: options.seed,
         resamples: RESAMPLES,
         agreement: agreement(&strokes, second, options.tolerance_px),
@@ -184,40 +192,27 @@ pub fn evaluate_segmentation(
     })
 }
 
+/// The probability from which on a pixel is marked.
+pub(crate) fn marking_threshold(options: &SegmentationOptions) -> f64 {
+    level(nearest_level(options.threshold))
+}
+
 /// The number of the threshold next to a probability.
 fn nearest_level(threshold: f64) -> usize {
     let number = (threshold * (LEVELS + 1) as f64).round() - 1.0;
     number.clamp(0.0, (LEVELS - 1) as f64) as usize
 }
 
-/// What each source sees in one image, counted.
+/// What each source sees in one image, counted, and the length of the centre lines of wood.
 fn count(
     image: &SegmentationImage,
     sources: &[SegmentationSource<'_>],
     options: &SegmentationOptions,
-) -> Result<Vec<PixelCounts>, LabelsError> {
+) -> Result<(Vec<PixelCounts>, f64), LabelsError> {
     let tolerance = options.tolerance_px;
     let pixels = ColorImage::read(&image.path)?;
     let size = [pixels.width, pixels.height];
-    let outside = |stroke: &&Stroke| {
-        let within = |x: f64, size: usize| (0.0..=size as f64).contains(&x);
-        let inside = |p: &StrokePoint| within(p.x, size[0]) && within(p.y, size[1]);
-        !stroke.points.iter().any(inside) && !stroke.samples().any(|sample| inside(&sample.point))
-    };
-    if let Some(stroke) = image.strokes.strokes.iter().find(outside) {
-        let first = stroke.points.first().map_or([f64::NAN; 2], |p| [p.x, p.y]);
-        let problem = format!(
-            "{}x{} pixels, and a stroke from ({}, {}) lies outside",
-            size[0], size[1], first[0], first[1]
-        );
-        return Err(LabelsError::malformed(
-            &image.path,
-            &problem,
-            "are the strokes of another image or size?",
-        ));
-    }
-    let drawn = options.apple_radii.map(|radii| discs(image, size, radii));
-    let truth = Truth::new(&image.strokes, size, tolerance, drawn.transpose()?.as_ref());
+    let truth = Truth::of(image, size, tolerance, options.apple_radii)?;
     let of_source = |source: &SegmentationSource<'_>| {
         let p = match source {
             SegmentationSource::Segmenter { segmenter, .. } => segmenter
@@ -245,39 +240,15 @@ fn count(
         }
         Ok(PixelCounts::of(&truth, &p, tolerance))
     };
-    sources.iter().map(of_source).collect()
-}
-
-/// So many radii about each apple that is boxed beside the image.
-fn discs(image: &SegmentationImage, size: [usize; 2], radii: f64) -> Result<Discs, LabelsError> {
-    let beside = |name: &&str| image.path.with_file_name(name);
-    let Some(path) = Frame::BOX_FILES
-        .iter()
-        .map(beside)
-        .find(|path| path.is_file())
-    else {
-        let problem = format!("no {} beside it", Frame::BOX_FILES.join(", "));
-        let remedy = "count whole images, or give frames with boxes";
-        return Err(LabelsError::malformed(&image.path, &problem, remedy));
-    };
-    let boxes = read_boxes(path, size[0], size[1])?;
-    let disc = |b: &PixelBox| {
-        let middle = [
-            f64::midpoint(b.x_min, b.x_max),
-            f64::midpoint(b.y_min, b.y_max),
-        ];
-        (
-            middle,
-            radii * (b.x_max - b.x_min).max(b.y_max - b.y_min) / 2.0,
-        )
-    };
-    Ok(boxes.iter().map(disc).collect())
+    let counts: Result<Vec<_>, _> = sources.iter().map(of_source).collect();
+    Ok((counts?, truth.wood_length()))
 }
 
 fn summary(name: &str, images: &[ImageStrokes], photographs: usize) -> StrokeSummary {
     let of = |class| images.iter().flat_map(move |image| image.of(class));
     StrokeSummary {
         name: name.to_owned(),
+        truth: TruthKind::Strokes,
         images: images.len(),
         photographs,
         wood: of(StrokeClass::Wood).count(),
@@ -381,7 +352,7 @@ fn worst(
     let one = |(image, counts): (&SegmentationImage, &&PixelCounts)| {
         let missed = |lines: &Vec<f64>| lines.iter().sum::<f64>() - reaching(lines, threshold);
         WorstSegmentation {
-            image: image.strokes.name.clone(),
+            image: image.name.clone(),
             missed_px: counts.lines.iter().map(missed).sum(),
             false_pixels: reaching(&counts.all, threshold) - reaching(&counts.near, threshold),
         }

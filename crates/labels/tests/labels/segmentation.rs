@@ -1,6 +1,7 @@
 //! Masks of wood against strokes: every figure on images whose answer is known, and what it must not depend on.
 
 mod definition;
+mod masks;
 mod orchard;
 mod photographs;
 mod refused;

@@ -8,12 +8,12 @@ use serde_json::{Value, json};
 use std::fs;
 use tempfile::TempDir;
 
-const SIZE: [usize; 2] = [96, 72];
+pub(super) const SIZE: [usize; 2] = [96, 72];
 
 /// Two tiles of one photograph and one of another, with a branch of 5 px each, a post, and a twig; a second person
 /// who drew half of the first branch; the masks of somebody who marks the branches' centre lines, and of somebody
 /// who marks half of the first one and a row far from it.
-fn bench() -> TempDir {
+pub(super) fn bench() -> TempDir {
     let dir = tempfile::tempdir().unwrap();
     for folder in ["set/images", "good", "poor"] {
         fs::create_dir_all(dir.path().join(folder)).unwrap();
@@ -38,7 +38,7 @@ fn bench() -> TempDir {
 }
 
 /// A mask that is sure of wood in the first pixels of some rows.
-fn mask(dir: &TempDir, name: &str, rows: &[(usize, usize)]) {
+pub(super) fn mask(dir: &TempDir, name: &str, rows: &[(usize, usize)]) {
     let [width, height] = SIZE;
     let mut values = vec![0; width * height];
     for (row, count) in rows {
@@ -52,12 +52,12 @@ fn mask(dir: &TempDir, name: &str, rows: &[(usize, usize)]) {
     mask.write(dir.path().join(name)).unwrap();
 }
 
-fn text(dir: &TempDir, name: &str) -> String {
+pub(super) fn text(dir: &TempDir, name: &str) -> String {
     dir.path().join(name).to_str().unwrap().to_owned()
 }
 
 /// The command line that measures on the bench's strokes.
-fn line(dir: &TempDir, masks: &[&str], more: &[&str]) -> Vec<String> {
+pub(super) fn line(dir: &TempDir, masks: &[&str], more: &[&str]) -> Vec<String> {
     let mut line = ["evaluate", "--segmentation"].map(str::to_owned).to_vec();
     line.push(text(dir, "set"));
     for name in masks {
@@ -68,21 +68,21 @@ fn line(dir: &TempDir, masks: &[&str], more: &[&str]) -> Vec<String> {
     line
 }
 
-fn written(dir: &TempDir) -> Value {
+pub(super) fn written(dir: &TempDir) -> Value {
     serde_json::from_slice(&fs::read(dir.path().join("out/segmentation.json")).unwrap()).unwrap()
 }
 
-fn schema() -> Schema {
+pub(super) fn schema() -> Schema {
     Schema::read("segmentation-evaluation.schema.json")
 }
 
-fn files(dir: &TempDir) -> Vec<String> {
+pub(super) fn files(dir: &TempDir) -> Vec<String> {
     let paths = tree(&dir.path().join("out"));
     paths.iter().map(|p| p.display().to_string()).collect()
 }
 
 #[track_caller]
-fn is(figure: &Value, expected: f64) {
+pub(super) fn is(figure: &Value, expected: f64) {
     let value = figure
         .as_f64()
         .unwrap_or_else(|| panic!("{figure} is no number"));
@@ -395,8 +395,19 @@ fn slips_of_the_command_line_are_usage_errors() {
     let out = text(&dir, "out");
     for (more, word) in [
         ("--strokes s.txt", "--segmentation"),
+        ("lab15 --strokes s.txt", "--segmentation"),
+        ("lab15 --segmenter built-in", "--segmentation"),
+        ("a --calipers c.csv --strokes s.txt", "--segmentation"),
         ("--segmentation x --detection y", "--detection"),
         ("--segmentation x lab15", "--segmentation"),
+        (
+            "--segmentation x --strokes s --truth-masks m",
+            "--truth-masks",
+        ),
+        (
+            "--segmentation x --second-strokes s --truth-masks m",
+            "--truth-masks",
+        ),
         ("--segmentation x --wood-threshold 1.5", "from 0 to 1"),
         ("--segmentation x --tolerance-px NaN", "from 0 to 100"),
     ] {
@@ -404,6 +415,85 @@ fn slips_of_the_command_line_are_usage_errors() {
         let usage = pomona(&[&["evaluate", "--out", &out][..], &more].concat());
         assert_eq!((usage.code, &*usage.out), (2, ""));
         assert!(usage.err.contains(word), "{}", usage.err);
+    }
+    assert!(tree(dir.path()).is_empty());
+}
+
+#[test]
+fn options_of_another_mode_are_usage_errors() {
+    let dir = tempfile::tempdir().unwrap();
+    let out = text(&dir, "out");
+    for (mode, options, owner) in [
+        (
+            "lab15",
+            &[
+                "--truth-masks m",
+                "--second-strokes s.txt",
+                "--masks m",
+                "--wood-threshold 0.4",
+                "--tolerance-px 2",
+            ][..],
+            "belongs to --segmentation, not to suites and frames with truth",
+        ),
+        (
+            "lab15",
+            &[
+                "--boxes b.json",
+                "--model built-in",
+                "--class apple",
+                "--label-class apple",
+                "--ignore-label x",
+                "--threshold 0.3",
+                "--lowest-score 0.1",
+                "--nms-iou 0.4",
+            ],
+            "belongs to --detection, not to suites and frames with truth",
+        ),
+        (
+            "lab15",
+            &["--runtime embedded", "--tiles whole"],
+            "belongs to --detection and --segmentation",
+        ),
+        (
+            "a --calipers c.csv",
+            &["--masks m"],
+            "belongs to --segmentation, not to --calipers",
+        ),
+        (
+            "a --calipers c.csv",
+            &["--calibration-poses 9"],
+            "belongs to suites and frames with truth, not to --calipers",
+        ),
+        (
+            "--detection x",
+            &["--wood-threshold 0.5"],
+            "belongs to --segmentation, not to --detection",
+        ),
+        (
+            "--detection x",
+            &["--robot"],
+            "belongs to suites and frames with truth, not to --detection",
+        ),
+        (
+            "--segmentation x",
+            &["--boxes b.json", "--threshold 0.25", "--nms-iou 0.4"],
+            "belongs to --detection, not to --segmentation",
+        ),
+        (
+            "--segmentation x",
+            &["--robot"],
+            "belongs to suites and frames with truth, not to --segmentation",
+        ),
+    ] {
+        for option in options {
+            let words: Vec<&str> = mode.split(' ').chain(option.split(' ')).collect();
+            let usage = pomona(&[&["evaluate", "--out", &out][..], &words].concat());
+            assert_eq!((usage.code, &*usage.out), (2, ""), "{option}");
+            let name = option.split(' ').next().unwrap();
+            let message = format!("error: {name} {owner}");
+            assert!(usage.err.contains(&message), "{option}: {}", usage.err);
+            assert!(usage.err.contains("pomona evaluate"), "{}", usage.err);
+        }
     }
     assert!(tree(dir.path()).is_empty());
 }

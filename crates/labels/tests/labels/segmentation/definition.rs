@@ -91,7 +91,7 @@ proptest! {
         let evaluation =
             evaluate_segmentation("random", &images, &[], &sources, &options, &|| {}).unwrap();
         let result = &evaluation.results[0];
-        let expected = by_definition(&images[0].strokes.strokes, &image, tolerance);
+        let expected = by_definition(&images[0].strokes().unwrap().strokes, &image, tolerance);
         let figures = [result.recall_wide, result.precision, result.iou];
         for (figure, expected) in figures.iter().zip(expected) {
             match figure {

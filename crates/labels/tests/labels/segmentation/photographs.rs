@@ -191,7 +191,10 @@ fn a_second_persons_strokes_are_the_ceiling() {
         (found.first_length_px, found.second_length_px),
         (100.0, 50.0)
     );
-    let first: Vec<ImageStrokes> = images.iter().map(|i| i.strokes.clone()).collect();
+    let first: Vec<ImageStrokes> = images
+        .iter()
+        .map(|i| i.strokes().unwrap().clone())
+        .collect();
     assert_eq!(agreement(&first, &second, 3.0).as_ref(), Some(found));
     let page = segmentation_page(&evaluation, &["worst-1.png".to_owned()]).unwrap();
     assert!(page.contains("A second person"), "{page}");

@@ -4,6 +4,7 @@
 //! limits there and the golden runs in `fixtures/golden`.
 
 mod lab;
+mod real;
 mod side;
 mod table;
 
@@ -15,7 +16,7 @@ use anyhow::{Context, Result, bail, ensure};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
-use xtask_gate::{Finding, Golden, Limits, SuiteLimits, Verdict, failures, judge};
+use xtask_gate::{Finding, Golden, Limits, RealLimits, SuiteLimits, Verdict, failures, judge};
 
 const LIMITS: &str = "xtask/regress.toml";
 const GOLDEN: &str = "fixtures/golden";
@@ -63,12 +64,15 @@ pub(crate) fn run(args: &Args) -> Result<()> {
             None => args.full || !suite.full,
         })
         .collect();
-    if chosen.is_empty() {
-        let names: Vec<_> = limits
-            .suites
-            .iter()
-            .map(|suite| suite.name.as_str())
-            .collect();
+    let real: Vec<&RealLimits> = limits
+        .real
+        .iter()
+        .filter(|run| args.suite.as_ref().is_none_or(|name| run.name == *name))
+        .collect();
+    if chosen.is_empty() && real.is_empty() {
+        let suites = limits.suites.iter().map(|suite| suite.name.as_str());
+        let real = limits.real.iter().map(|run| run.name.as_str());
+        let names: Vec<_> = suites.chain(real).collect();
         bail!("no such suite in {LIMITS}; there are {}", names.join(", "));
     }
     let program = Program::build(args.build)?;
@@ -96,6 +100,9 @@ pub(crate) fn run(args: &Args) -> Result<()> {
         if !beside.is_empty() {
             println!("\n{beside}");
         }
+    }
+    for run in real {
+        findings.extend(real::findings(&program, run, Path::new(OUT))?);
     }
     println!("\n{}", table::of(&findings, args.all));
     let failed = failures(&findings).count();

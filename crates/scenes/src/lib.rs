@@ -32,9 +32,9 @@
 //!   camera sees: enough to decide whether a refusal is right.
 //! - A [`Suite`] is a named, reproducible list of scenes: all randomness comes from explicit seeds, and the bytes do
 //!   not depend on the number of threads. `lab15` and `lab150` are the paper's laboratory, `repeat474` its repeats
-//!   (`-none`, `-light`, `-dense` with fewer or more leaves), `orchard` random branches, `harsh` the same with a real
-//!   sensor's faults (`-kinect`, `-azure-kinect`, `-d400` with other cameras), `row` whole trees, `demo` a
-//!   demonstration.
+//!   (`-none`, `-light`, `-dense` with fewer or more leaves), `orchard` random branches, `rivals` the same where
+//!   thicker branches pass near the right one, `harsh` the orchard with a real sensor's faults (`-kinect`,
+//!   `-azure-kinect`, `-d400` with other cameras), `row` whole trees, `demo` a demonstration.
 //!
 //! A scene of your own, seen by a camera without noise:
 //!
@@ -68,6 +68,7 @@
 //!   doi 10.3390/agriculture12081170: the laboratory set-up and the repeats.
 
 mod apple;
+mod attempts;
 mod cameras;
 mod curve;
 mod demo;
@@ -82,6 +83,7 @@ mod random;
 mod ray;
 mod raycast;
 mod repeat;
+mod rivals;
 mod row;
 mod scene;
 mod sensing;

@@ -3,12 +3,10 @@ use crate::curve::Curve;
 use crate::grow::{Grower, Hanging, across};
 use crate::light::Light;
 use crate::random::{Purpose, stream};
-use crate::raycast::{Raycast, raycast};
-use crate::visibility::look_at;
 use crate::world::{Bark, Branch, World};
 use nalgebra::{Isometry3, Point3, Rotation3, Translation3, Vector3};
-use pomona_cloud::Camera;
 use rand::RngExt;
+use rand_chacha::ChaCha8Rng;
 
 /// Random parts of an orchard: one target apple, its branch, and their surroundings.
 ///
@@ -28,6 +26,10 @@ pub struct Orchard {
     pub neighbours: usize,
     /// Most branches beside the target's own.
     pub other_branches: usize,
+    /// Fewest and most branches that rival the target's own: farther by 0.15 radii or more, thicker and
+    /// better to see. With none the scene is an ordinary one; with some there are no other branches,
+    /// and `branch_radius` does not count.
+    pub rivals: (usize, usize),
     /// Share of the target that must show; layouts with less are drawn again.
     pub least_visible: f64,
     /// Greatest angle by which the camera looks up, radians.
@@ -43,53 +45,53 @@ impl Default for Orchard {
             leaves: 12,
             neighbours: 2,
             other_branches: 2,
+            rivals: (0, 0),
             least_visible: 0.3,
             tilt: 0.45,
         }
     }
 }
 
-/// Layouts tried before one is taken whose target shows too little.
-const ATTEMPTS: u64 = 40;
-
 impl Orchard {
-    /// The world of `seed` before `camera`.
-    pub fn world(&self, camera: &Camera, seed: u64) -> World {
-        self.layout(camera, seed).0
-    }
-
-    /// The world and what the rays meet in it.
-    pub(crate) fn layout(&self, camera: &Camera, seed: u64) -> (World, Raycast) {
-        let mut attempt = 0;
-        loop {
-            let world = Layout::new(*self, seed, attempt).world();
-            let cast = raycast(&world, camera);
-            let seen = look_at(&world, camera, &cast, 0, 0.0, 1);
-            let share = seen.and_then(|apple| apple.visible_share).unwrap_or(0.0);
-            attempt += 1;
-            if share >= self.least_visible || attempt == ATTEMPTS {
-                return (world, cast);
-            }
+    /// The default with one to three rivals of the target's branch.
+    pub fn with_rivals() -> Self {
+        Self {
+            rivals: (1, 3),
+            ..Self::default()
         }
     }
 }
 
+/// How the bearing branch passes the target's centre.
+pub(crate) struct Course {
+    pub(crate) radius: f64,
+    pub(crate) distance: f64,
+    /// From the centre to the branch.
+    pub(crate) direction: Vector3<f64>,
+    pub(crate) tangent: Vector3<f64>,
+    pub(crate) length: f64,
+    pub(crate) bow: Vector3<f64>,
+}
+
 /// One attempt; in a level frame about the target's centre.
-struct Layout {
-    orchard: Orchard,
-    tree: Grower,
+pub(crate) struct Layout {
+    pub(crate) orchard: Orchard,
+    pub(crate) tree: Grower,
 }
 
 impl Layout {
-    fn new(orchard: Orchard, seed: u64, attempt: u64) -> Self {
-        let rng = stream(seed, Purpose::Layout, attempt);
+    pub(crate) fn new(orchard: Orchard, seed: u64, attempt: u64) -> Self {
+        Self::with(orchard, stream(seed, Purpose::Layout, attempt))
+    }
+
+    pub(crate) fn with(orchard: Orchard, rng: ChaCha8Rng) -> Self {
         Self {
             orchard,
             tree: Grower::new(World::new(Light::default()), rng),
         }
     }
 
-    fn world(mut self) -> World {
+    pub(crate) fn world(mut self) -> World {
         let target = self.apple();
         let bearing = self.bearing_branch(&target);
         for _ in 0..self.up_to(self.orchard.other_branches) {
@@ -100,6 +102,12 @@ impl Layout {
         }
         self.spurs_and_leaves(bearing, target.radius);
 
+        let pose = self.pose();
+        self.tree.world.transformed(&pose)
+    }
+
+    /// Where the level frame stands before the camera.
+    pub(crate) fn pose(&mut self) -> Isometry3<f64> {
         let tilt = self.tree.between(0.0..self.orchard.tilt);
         let z = self.drawn(self.orchard.distance);
         // Within the middle of the image, where half the field of view is 0.59 by 0.44 of z.
@@ -107,22 +115,21 @@ impl Layout {
             self.tree.between(-0.25..0.25) * z,
             self.tree.between(-0.15..0.15) * z,
         );
-        let pose = Isometry3::from_parts(
+        Isometry3::from_parts(
             Translation3::new(x, y, z),
             Rotation3::from_axis_angle(&Vector3::x_axis(), -tilt).into(),
-        );
-        self.tree.world.transformed(&pose)
+        )
     }
 
-    fn drawn(&mut self, range: (f64, f64)) -> f64 {
+    pub(crate) fn drawn(&mut self, range: (f64, f64)) -> f64 {
         self.tree.between(range.0..range.1)
     }
 
-    fn up_to(&mut self, most: usize) -> usize {
+    pub(crate) fn up_to(&mut self, most: usize) -> usize {
         self.tree.rng.random_range(0..=most)
     }
 
-    fn apple(&mut self) -> Apple {
+    pub(crate) fn apple(&mut self) -> Apple {
         let varieties = [
             Variety::Red,
             Variety::Red,
@@ -150,9 +157,30 @@ impl Layout {
             .between(nearest..(1.5 * target.radius).max(nearest + 0.002));
         let direction = (self.tree.isotropic() - Vector3::y() * 0.7).normalize();
         let tangent = across(&self.tree.isotropic(), &direction);
-        let foot = Point3::from(direction * distance);
         let length = self.tree.between(0.5..0.9);
         let bow = across(&self.tree.isotropic(), &tangent) * self.tree.between(0.0..0.04);
+        let course = Course {
+            radius,
+            distance,
+            direction,
+            tangent,
+            length,
+            bow,
+        };
+        self.bear(target, &course)
+    }
+
+    /// A branch on its course, and the target on it.
+    pub(crate) fn bear(&mut self, target: &Apple, course: &Course) -> usize {
+        let Course {
+            radius,
+            distance,
+            direction,
+            tangent,
+            length,
+            bow,
+        } = *course;
+        let foot = Point3::from(direction * distance);
         let taper = self.tree.between(0.0..0.35);
         let branch = self.tree.world.add_branch(Branch {
             curve: Curve::through(foot, tangent, length, bow),
@@ -208,7 +236,7 @@ impl Layout {
     }
 
     /// An apple on the same branch, in a third of the cases touching the target.
-    fn neighbour(&mut self, branch: usize) {
+    pub(crate) fn neighbour(&mut self, branch: usize) {
         let apple = self.apple();
         let bearing = self.tree.world.branches()[branch];
         let target = self.tree.world.apples()[0];
@@ -254,7 +282,7 @@ impl Layout {
 
     /// Spurs on the bearing branch within sight of the target, and the leaves, on
     /// the spurs or at the foot of the target's stalk; half of them towards the camera.
-    fn spurs_and_leaves(&mut self, branch: usize, target_radius: f64) {
+    pub(crate) fn spurs_and_leaves(&mut self, branch: usize, target_radius: f64) {
         let bearing = self.tree.world.branches()[branch];
         let length = bearing.curve.length();
         let mut sites = vec![bearing.curve.point(0.5)];
@@ -324,7 +352,8 @@ impl Layout {
 mod tests {
     use super::*;
     use crate::shot::Shot;
-    use crate::visibility::nearest_branch;
+    use crate::visibility::{look_at, nearest_branch};
+    use pomona_cloud::Camera;
 
     fn camera() -> Camera {
         Shot::paper_camera().with_intrinsics([320, 240], [270.0; 2], [159.5, 119.5])

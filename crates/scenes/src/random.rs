@@ -27,6 +27,8 @@ pub(crate) enum Purpose {
     Sway,
     /// The signs of a camera's systematic errors.
     Systematic,
+    /// Positions and sizes of objects where branches rival the target's own.
+    Rivals,
 }
 
 /// The stream of `purpose` number `index` under `seed`.

@@ -21,6 +21,8 @@ pub enum Suite {
     Repeat(Density),
     /// `orchard`: 200 random pieces of an orchard before the paper's camera; see [`Orchard`].
     Orchard,
+    /// `rivals`: the same where thicker branches pass near the target's own; see [`Orchard::with_rivals`].
+    Rivals,
     /// `harsh` and the like: the same orchard as a real camera sees it
     /// outdoors; see [`Sensor::outdoors`].
     Harsh(Make),
@@ -51,6 +53,7 @@ impl Suite {
         Self::Repeat(Density::Paper),
         Self::Repeat(Density::Dense),
         Self::Orchard,
+        Self::Rivals,
         Self::Harsh(Make::Paper),
         Self::Harsh(Make::Kinect),
         Self::Harsh(Make::AzureKinect),
@@ -91,6 +94,7 @@ impl Suite {
             Self::Repeat(Density::Paper) => "repeat474",
             Self::Repeat(Density::Dense) => "repeat474-dense",
             Self::Orchard => "orchard",
+            Self::Rivals => "rivals",
             Self::Harsh(Make::Paper) => "harsh",
             Self::Harsh(Make::Kinect) => "harsh-kinect",
             Self::Harsh(Make::AzureKinect) => "harsh-azure-kinect",
@@ -110,6 +114,7 @@ impl Suite {
             Self::Repeat(Density::Paper) => "474 repeats of one apple with leaves as in the paper",
             Self::Repeat(Density::Dense) => "474 repeats of one apple among many leaves",
             Self::Orchard => "200 random orchard scenes, the paper's camera",
+            Self::Rivals => "200 orchard scenes with thicker branches near the right one",
             Self::Harsh(Make::Paper) => "the orchard scenes outdoors, the paper's camera",
             Self::Harsh(Make::Kinect) => "the orchard scenes outdoors, first Kinect",
             Self::Harsh(Make::AzureKinect) => "the orchard scenes outdoors, Azure Kinect",
@@ -125,7 +130,7 @@ impl Suite {
             Self::Lab15 => 15,
             Self::Lab150 => 150,
             Self::Repeat(_) => 474,
-            Self::Orchard | Self::Harsh(_) => 200,
+            Self::Orchard | Self::Rivals | Self::Harsh(_) => 200,
             Self::Row => 10,
             Self::Demo => 1,
         }
@@ -189,8 +194,11 @@ impl Case {
                 shot.take(&Lab::default().world(orientation))
             }
             Suite::Repeat(density) => Repeat::new(density).scene(self.name.clone(), self.seed),
-            Suite::Orchard => self.orchard(Sensor::paper()),
-            Suite::Harsh(make) => self.orchard(make.sensor().outdoors(self.seed)),
+            Suite::Orchard => self.orchard(Orchard::default(), Sensor::paper()),
+            Suite::Rivals => self.orchard(Orchard::with_rivals(), Sensor::paper()),
+            Suite::Harsh(make) => {
+                self.orchard(Orchard::default(), make.sensor().outdoors(self.seed))
+            }
             Suite::Row => self
                 .shot(Sensor::paper())
                 .take(&Row::default().world(self.seed)),
@@ -202,12 +210,12 @@ impl Case {
         Shot::new(self.name.clone(), Shot::paper_camera(), sensor, self.seed)
     }
 
-    fn orchard(&self, sensor: Sensor) -> Scene {
+    fn orchard(&self, orchard: Orchard, sensor: Sensor) -> Scene {
         let shot = Shot {
             target: Some(0),
             ..self.shot(sensor)
         };
-        let (world, cast) = Orchard::default().layout(&shot.camera, self.seed);
+        let (world, cast) = orchard.layout(&shot.camera, self.seed);
         shot.develop(&world, &cast)
     }
 }

@@ -133,7 +133,7 @@ fn describe(
 }
 
 /// Pixels and length of a branch that show within the shell's reach of an apple.
-fn visible_branch(
+pub(crate) fn visible_branch(
     world: &World,
     camera: &Camera,
     cast: &Raycast,

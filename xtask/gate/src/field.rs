@@ -132,6 +132,62 @@ pub const FIELDS: &[Field] = &[
         MM,
         Better::Less,
     ),
+    // Real frames.
+    field(
+        "seen_answered_share",
+        "/all/seen/answered/share",
+        ONE,
+        Better::More,
+    ),
+    field(
+        "right_of_answers_share",
+        "/all/seen/right/share",
+        ONE,
+        Better::More,
+    ),
+    field(
+        "right_of_apples_share",
+        "/all/seen/hits/share",
+        ONE,
+        Better::More,
+    ),
+    field(
+        "on_wood_share",
+        "/all/seen/on_wood/share",
+        ONE,
+        Better::More,
+    ),
+    field("brier", "/all/reliability/brier", ONE, Better::Less),
+    field(
+        "right_of_confident_share",
+        "/all/reliability/right_of_confident/share",
+        ONE,
+        Better::More,
+    ),
+    field(
+        "frames_within_20_deg_share",
+        "/between_frames/within_20_deg/share",
+        ONE,
+        Better::More,
+    ),
+    field(
+        "frames_beyond_50_deg_share",
+        "/between_frames/beyond_50_deg/share",
+        ONE,
+        Better::Less,
+    ),
+    field(
+        "copies_within_20_deg_share",
+        "/all/perturbed/directions/within_20_deg/share",
+        ONE,
+        Better::More,
+    ),
+    field(
+        "copies_flipped_share",
+        "/all/perturbed/flipped/share",
+        ONE,
+        Better::Less,
+    ),
     field(
         "orientation_angle_mean_deg",
         "/lab/*/angle_error/mean",

@@ -43,4 +43,4 @@ mod limits;
 pub use field::{Better, FIELDS, Field};
 pub use golden::{GOLDEN_SCHEMA, Golden};
 pub use judgement::{Finding, Verdict, failures, judge};
-pub use limits::{FieldLimits, Limits, SuiteLimits};
+pub use limits::{FieldLimits, Limits, RealLimits, SuiteLimits};

@@ -2,7 +2,7 @@ use crate::field::Field;
 use anyhow::{Context, Result, ensure};
 use serde::Deserialize;
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// What `xtask/regress.toml` holds.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -11,6 +11,33 @@ pub struct Limits {
     /// The runs, in the order in which they are made.
     #[serde(rename = "suite")]
     pub suites: Vec<SuiteLimits>,
+    /// Runs over real frames, made where the frames are at hand.
+    #[serde(default)]
+    pub real: Vec<RealLimits>,
+}
+
+/// One run over real frames: what is given to it, and what is asked of its methods.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RealLimits {
+    /// Name of the run.
+    pub name: String,
+    /// Folders of the frames, relative to the project; the run is left out where one is not there.
+    pub frames: Vec<PathBuf>,
+    /// The strokes of their wood.
+    pub strokes: PathBuf,
+    /// Which apples' wood is seen.
+    pub apples: PathBuf,
+    /// What tells wood: `none`, `built-in` or a model.
+    pub segmenter: String,
+    /// Number of perturbed copies of each frame.
+    pub repeats: usize,
+    /// Settings of methods that are variants, named by their files.
+    #[serde(default)]
+    pub variants: Vec<PathBuf>,
+    /// What is asked of each method or variant: floors and ceilings, since there are no goldens of real frames.
+    #[serde(rename = "method")]
+    pub methods: Vec<SuiteLimits>,
 }
 
 /// One run: a suite under a method, and what is asked of it.
@@ -64,9 +91,17 @@ impl Limits {
     /// Where it is not TOML of this form, names a field that there is not, or limits one in no way or by nonsense.
     pub fn parse(text: &str) -> Result<Self> {
         let limits: Self = toml::from_str(text)?;
-        for (i, suite) in limits.suites.iter().enumerate() {
+        let real = limits.real.iter().flat_map(|real| &real.methods);
+        for field in real.clone().flat_map(|method| method.fields.values()) {
+            ensure!(
+                field.tolerance.is_none(),
+                "real frames have no goldens, and so no tolerance"
+            );
+        }
+        let runs: Vec<&SuiteLimits> = limits.suites.iter().chain(real).collect();
+        for (i, suite) in runs.iter().enumerate() {
             let id = suite.id();
-            let twice = limits.suites[i + 1..].iter().any(|other| other.id() == id);
+            let twice = runs[i + 1..].iter().any(|other| other.id() == id);
             ensure!(!twice, "{id} is given twice");
             ensure!(!suite.fields.is_empty(), "{id}: no field is limited");
             for (name, field) in &suite.fields {
@@ -108,6 +143,21 @@ impl SuiteLimits {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn real_frames_have_limits_without_tolerance() {
+        let text = |limit: &str| {
+            format!(
+                "suite = []\n[[real]]\nname = \"r\"\nframes = [\"a\"]\nstrokes = \"s\"\napples = \"c\"\n\
+                 segmenter = \"none\"\nrepeats = 2\n[[real.method]]\nname = \"r\"\nmethod = \"paper\"\n\
+                 [real.method.fields]\nright_of_answers_share = {limit}\n"
+            )
+        };
+        let limits = Limits::parse(&text("{ floor = 0.2 }")).unwrap();
+        assert_eq!(limits.real[0].methods[0].id(), "r.paper");
+        let refused = Limits::parse(&text("{ tolerance = 0.2 }")).unwrap_err();
+        assert!(refused.to_string().contains("goldens"), "{refused}");
+    }
 
     #[test]
     fn nonsense_is_refused_by_name() {

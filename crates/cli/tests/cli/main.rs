@@ -17,6 +17,7 @@ mod fuse;
 mod inspect;
 mod large_fruit;
 mod pick;
+mod real;
 mod real_frames;
 mod robot;
 mod scene;

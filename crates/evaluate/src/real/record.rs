@@ -317,7 +317,7 @@ pub struct RealRow {
     /// The foot in the image, pixels.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub foot_px: Option<[f64; 2]>,
-    /// Points of the wood nearest to the centre, one of each stroke that is as near as the nearest one, pixels.
+    /// Points nearest to the centre of the strokes that count as nearest, one of each, pixels.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub wood_px: Vec<[f64; 2]>,
 }

@@ -1,6 +1,6 @@
 use super::frame::RealFrame;
 use super::record::Verdict;
-use super::wood_near::{Place, WoodNear, radius_px, wood_near};
+use super::wood_near::{Place, WoodNear, middle_px, radius_px, wood_near};
 use pomona::AppleAnswer;
 
 /// Largest angle in the image between the direction of an answer and that to the wood of an answer that points at it.
@@ -47,6 +47,7 @@ impl<'a> Sight<'a> {
         let focal_px = f64::midpoint(camera.fx, camera.fy);
         let place = Place {
             center_px,
+            box_px: middle_px(&answer.bounds),
             depth_m: center.z,
             radius_px,
             radius_m: radius_px * center.z / focal_px,

@@ -22,6 +22,8 @@ const LEAST_READINGS: usize = 5;
 pub(super) struct Place {
     /// Its centre in the coordinates of strokes: pixels, (0.5, 0.5) the middle of the first pixel.
     pub(super) center_px: [f64; 2],
+    /// The middle of its box, likewise.
+    pub(super) box_px: [f64; 2],
     /// Depth of the centre, metres.
     pub(super) depth_m: f64,
     /// Radius of the box.
@@ -59,43 +61,56 @@ pub(super) fn radius_px(bounds: &PixelBox) -> f64 {
     f64::midpoint(bounds.width(), bounds.height()) / 2.0
 }
 
-/// Distance in pixels of the nearest stroke of wood from the middle of a box.
-pub(super) fn distance_from_box(frame: &RealFrame, bounds: &PixelBox) -> Option<f64> {
-    let middle = [
+/// The middle of a box, pixels.
+pub(super) fn middle_px(bounds: &PixelBox) -> [f64; 2] {
+    [
         f64::midpoint(bounds.x_min, bounds.x_max),
         f64::midpoint(bounds.y_min, bounds.y_max),
-    ];
+    ]
+}
+
+/// Distance in pixels of the nearest stroke of wood from the middle of a box.
+pub(super) fn distance_from_box(frame: &RealFrame, bounds: &PixelBox) -> Option<f64> {
+    let middle = middle_px(bounds);
     let distances = frame.wood_strokes().map(|stroke| stroke.nearest(middle).0);
     distances.min_by(f64::total_cmp)
 }
 
 /// The wood nearest to a place; `None` where no stroke of wood is near in depth.
+///
+/// Strokes count that are nearest as seen from the centre, or as seen from the middle of the box: which branch is the
+/// nearest does not depend on how well a method has placed the centre.
 pub(super) fn wood_near<'a>(frame: &'a RealFrame, place: &Place) -> Option<WoodNear<'a>> {
-    let mut feet: Vec<(f64, StrokePoint, &Stroke)> = frame
+    let slack = AS_NEAR_RADII * place.radius_px;
+    // Distance from the centre, from the middle of the box, the point nearest to the centre.
+    let mut seen: Vec<(f64, f64, StrokePoint, &Stroke)> = frame
         .wood_strokes()
         .filter_map(|stroke| {
             let (distance, foot) = stroke.nearest_point(place.center_px)?;
-            Some((distance, foot, stroke))
+            Some((distance, stroke.nearest(place.box_px).0, foot, stroke))
         })
         .collect();
-    feet.sort_by(|a, b| a.0.total_cmp(&b.0));
+    seen.sort_by(|a, b| a.0.total_cmp(&b.0));
     let is_own = |foot: &StrokePoint| {
         depth_at(&frame.frame.depth, foot).is_none_or(|reading| {
             let depth_m = reading * frame.frame.camera.depth_scale;
             (depth_m - place.depth_m).abs() <= OWN_DEPTH_RADII * place.radius_m
         })
     };
-    let nearest = feet.iter().position(|(_, foot, _)| is_own(foot))?;
-    let distance_px = feet[nearest].0;
-    let as_near = feet[nearest..]
-        .iter()
-        .take_while(|(distance, _, _)| *distance <= distance_px + AS_NEAR_RADII * place.radius_px)
-        .filter(|(_, foot, _)| is_own(foot));
+    let own: Vec<_> = seen.iter().filter(|(_, _, foot, _)| is_own(foot)).collect();
+    let distance_px = own.first()?.0;
+    let from_box_px = own.iter().map(|o| o.1).min_by(f64::total_cmp)?;
+    let as_near: Vec<_> = own
+        .into_iter()
+        .filter(|(center, middle, _, _)| {
+            *center <= distance_px + slack || *middle <= from_box_px + slack
+        })
+        .collect();
     Some(WoodNear {
-        strokes: as_near.clone().map(|(_, _, stroke)| *stroke).collect(),
-        feet: as_near.map(|(_, foot, _)| [foot.x, foot.y]).collect(),
+        strokes: as_near.iter().map(|near| near.3).collect(),
+        feet: as_near.iter().map(|near| [near.2.x, near.2.y]).collect(),
         distance_px,
-        passed_over: nearest,
+        passed_over: seen.iter().take_while(|near| !is_own(&near.2)).count(),
     })
 }
 
@@ -138,6 +153,7 @@ mod tests {
 
     const PLACE: Place = Place {
         center_px: [100.0, 100.0],
+        box_px: [100.0, 100.0],
         depth_m: 1.0,
         radius_px: 40.0,
         radius_m: 0.04,
@@ -153,6 +169,18 @@ mod tests {
         assert_eq!((near.distance_px, near.passed_over), (55.0, 0));
         assert_eq!(near.distance_from([0.0, 46.0]), Some(0.0));
         assert_eq!(near.distance_from([30.0, 150.0]), Some(8.0));
+    }
+
+    #[test]
+    fn wood_nearest_to_the_box_counts_too() {
+        // The centre is placed 20 pixels low, and the lower branch seems nearer.
+        let frame = frame("wood 0,30,2 200,30,2\nwood 0,150,2 200,150,2");
+        let mut place = PLACE;
+        place.box_px = [100.0, 80.0];
+        let near = wood_near(&frame, &place).unwrap();
+        assert_eq!(near.feet, [[100.0, 150.0], [100.0, 30.0]]);
+        assert_eq!(near.distance_px, 50.0);
+        assert_eq!(wood_near(&frame, &PLACE).unwrap().feet.len(), 1);
     }
 
     #[test]

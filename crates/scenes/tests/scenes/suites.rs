@@ -72,6 +72,7 @@ fn first_scenes_of_all_suites_hold_together() {
 fn a_case_gives_the_same_scene_twice_and_the_next_case_another() {
     for suite in [
         Suite::Orchard,
+        Suite::Rivals,
         Suite::Repeat(Density::Paper),
         Suite::Harsh(Make::D400),
     ] {

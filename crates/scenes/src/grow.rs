@@ -222,7 +222,7 @@ impl Grower {
 }
 
 /// Whether a leaf's blade enters an apple, by points along its midrib and its sides.
-fn pierces(leaf: &Leaf, apple: &Apple) -> bool {
+pub(crate) fn pierces(leaf: &Leaf, apple: &Apple) -> bool {
     leaf.blade_points()
         .any(|p| (p - apple.center).norm() < apple.radius + 0.001)
 }

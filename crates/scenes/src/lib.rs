@@ -34,7 +34,8 @@
 //!   not depend on the number of threads. `lab15` and `lab150` are the paper's laboratory, `repeat474` its repeats
 //!   (`-none`, `-light`, `-dense` with fewer or more leaves), `orchard` random branches, `rivals` the same where
 //!   thicker branches pass near the right one, `harsh` the orchard with a real sensor's faults (`-kinect`,
-//!   `-azure-kinect`, `-d400` with other cameras), `row` whole trees, `demo` a demonstration.
+//!   `-azure-kinect`, `-d400` with other cameras), `dense` foliage as dense as in real trees, `row` whole trees, `demo` a
+//!   demonstration.
 //!
 //! A scene of your own, seen by a camera without noise:
 //!
@@ -72,7 +73,9 @@ mod attempts;
 mod cameras;
 mod curve;
 mod demo;
+mod dense;
 mod error;
+mod foliage;
 mod grow;
 mod lab;
 mod leaf;
@@ -86,19 +89,23 @@ mod repeat;
 mod rivals;
 mod row;
 mod scene;
+mod scenery;
 mod sensing;
 mod sensor;
 mod shade;
 mod shadow;
 mod shot;
 mod suite;
+mod time_of_flight;
 mod truth;
 mod visibility;
+mod wood_seen;
 mod world;
 
 pub use apple::{Apple, Variety};
 pub use cameras::Make;
 pub use curve::Curve;
+pub use dense::Dense;
 pub use error::SceneError;
 pub use lab::{CameraAxis, Lab, Orientation};
 pub use leaf::Leaf;
@@ -106,8 +113,8 @@ pub use light::Light;
 pub use orchard::Orchard;
 pub use repeat::{Density, Repeat};
 pub use row::Row;
-pub use scene::{CLASSES_FILE, Scene, SceneClass};
-pub use sensor::{Axial, Bias, Dropout, Edges, Sensor, Sunlight, Thin};
+pub use scene::{CLASSES_FILE, Scene, SceneClass, VisibleWood};
+pub use sensor::{Axial, Bias, Dropout, Edges, Sensor, Sunlight, Thin, TimeOfFlight};
 pub use shot::Shot;
 pub use suite::{Case, Suite};
 pub use truth::{AppleTruth, BranchTruth, TRUTH_FILE, TRUTH_SCHEMA, Truth};

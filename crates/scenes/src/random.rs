@@ -29,6 +29,14 @@ pub(crate) enum Purpose {
     Systematic,
     /// Positions and sizes of objects where branches rival the target's own.
     Rivals,
+    /// Positions and sizes of objects in a dense tree.
+    Dense,
+    /// The key of smooth errors of a time-of-flight camera.
+    Warp,
+    /// How the boxes of a person differ from what shows.
+    Boxes,
+    /// The key of far rows, and the noise of the colour image.
+    Scenery,
 }
 
 /// The stream of `purpose` number `index` under `seed`.

@@ -14,15 +14,28 @@ pub struct Scene {
     pub truth: Truth,
     /// The [`SceneClass`] of each pixel of the colour image; `None` where it is not known.
     pub classes: Option<GrayImage>,
+    /// The stretches of wood that the colour image shows; `None` where they are not known.
+    pub wood: Option<Vec<VisibleWood>>,
+}
+
+/// A stretch of a limb of wood that shows in the colour image, as a person would draw it: its centre line.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct VisibleWood {
+    /// Right, down and half width, pixels, the upper left corner of the image being (0, 0).
+    pub points: Vec<[f64; 3]>,
+    /// Mean depth, metres.
+    pub depth_m: f64,
 }
 
 impl Scene {
-    /// A frame and its truth, without the classes of its pixels.
+    /// A frame and its truth, without the classes of its pixels and the wood that shows.
     pub fn new(frame: Frame, truth: Truth) -> Self {
         Self {
             frame,
             truth,
             classes: None,
+            wood: None,
         }
     }
 

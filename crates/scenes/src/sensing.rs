@@ -2,6 +2,7 @@ use crate::random::{Normal, Purpose, lattice, stream};
 use crate::ray::Ray;
 use crate::raycast::{NOTHING, Raycast};
 use crate::sensor::Sensor;
+use crate::time_of_flight::sense_by_flight;
 use crate::world::{Shape, World};
 use pomona_cloud::{Camera, DepthImage};
 use rand::RngExt;
@@ -19,6 +20,9 @@ pub(crate) fn sense(
     sensor: &Sensor,
     seed: u64,
 ) -> DepthImage {
+    if let Some(flight) = &sensor.time_of_flight {
+        return sense_by_flight(world, camera, cast, (sensor, flight), seed);
+    }
     let (width, height) = (cast.width, cast.height);
     let sensing = Sensing {
         world,

@@ -34,6 +34,38 @@ pub struct Sensor {
     pub focal_error: f64,
     /// Pixels by which the colour image is shifted right and down against the depth.
     pub color_shift_px: (i32, i32),
+    /// How the camera mixes what it sees, where it is one of time of flight. Of the fields above, only `bias.constant_m`,
+    /// `axial`, `range_m`, `step_m`, `depth_scale`, `focal_error` and `color_shift_px` count then.
+    pub time_of_flight: Option<TimeOfFlight>,
+}
+
+/// A time-of-flight camera outdoors, registered to a finer colour image.
+///
+/// One of its pixels sees all surfaces within a blur, each as strongly as it sends light back, and reads their mean
+/// depth: edges are smeared over several pixels towards what lies behind, and thin wood is mixed with it. Where the
+/// depths are too different, or too little light comes back, there is no reading.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct TimeOfFlight {
+    /// Pixels of the colour image from one of the camera's own pixels to the next.
+    pub pixel_px: f64,
+    /// Standard deviation of the blur, pixels of the colour image.
+    pub blur_px: f64,
+    /// Standard deviation of the depths within a pixel above which it has no reading, metres.
+    pub mixed_sd_m: f64,
+    /// Amplitude below which a pixel has no reading; 1 is that of a white surface that faces the camera from 1 m.
+    pub least_amplitude: f64,
+    /// Size of the holes that light from elsewhere leaves, pixels.
+    pub hole_px: f64,
+    /// Level of smooth noise in 0..1 below which there is a hole.
+    pub hole_level: f64,
+    /// Share by which the depth of an apple's surface behind its front is too small: light that takes detours within
+    /// and between surfaces makes it flatter.
+    pub flattening: f64,
+    /// Largest error that varies smoothly over surfaces, metres.
+    pub warp_m: f64,
+    /// Pixels over which it varies.
+    pub warp_px: f64,
 }
 
 /// Standard deviation of a reading at depth z.
@@ -185,6 +217,7 @@ impl Sensor {
             depth_scale: 0.0001,
             focal_error: 0.0,
             color_shift_px: (0, 0),
+            time_of_flight: None,
         }
     }
 }

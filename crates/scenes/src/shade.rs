@@ -1,4 +1,5 @@
 use crate::apple::Variety;
+use crate::leaf::Leaf;
 use crate::light::Light;
 use crate::random::value_noise;
 use crate::ray::{Ray, Surface};
@@ -33,9 +34,19 @@ pub(crate) fn shade(world: &World, camera: &Camera, cast: &Raycast) -> ColorImag
         .par_chunks_mut(cast.width)
         .enumerate()
         .for_each(|(y, row)| {
-            let sky = painter.sky(y);
-            let sky_bytes = bytes(sky);
+            let plain_sky = painter.sky(y);
+            let plain_bytes = bytes(plain_sky);
             for (x, pixel) in row.iter_mut().enumerate() {
+                let (sky, sky_bytes) = match &world.scenery {
+                    Some(scenery)
+                        if cast.part[y * cast.width + x] == NOTHING || edge(cast, x, y) =>
+                    {
+                        let ray = Ray::of_pixel(camera, x as f64, y as f64);
+                        let color = scenery.color(&ray, &world.light.up);
+                        (color, bytes(color))
+                    }
+                    _ => (plain_sky, plain_bytes),
+                };
                 let around = around(cast, x, y);
                 let own = around[0];
                 let plain = if own == NOTHING {
@@ -67,6 +78,11 @@ fn around(cast: &Raycast, x: usize, y: usize) -> [u32; 5] {
         cast.part[if y > 0 { pixel - w } else { pixel }],
         cast.part[if y + 1 < h { pixel + w } else { pixel }],
     ]
+}
+
+/// Whether a pixel beside this one shows nothing.
+fn edge(cast: &Raycast, x: usize, y: usize) -> bool {
+    around(cast, x, y).contains(&NOTHING)
 }
 
 struct Painter<'a> {
@@ -147,7 +163,8 @@ impl Painter<'_> {
         } else {
             surface.normal
         };
-        let finish = finish(part, &surface, &point, backside, light);
+        let weathered = self.world.scenery.is_some();
+        let finish = finish(part, &surface, &point, (backside, weathered), light);
         let facing = normal.dot(&light.toward_sun);
         let lit = match self.shadows {
             Some(grid) if grid.is_shadowed(&point, &(normal * facing.signum())) => 0.0,
@@ -181,7 +198,7 @@ fn finish(
     part: &Part,
     surface: &Surface,
     point: &Point3<f64>,
-    backside: bool,
+    (backside, weathered): (bool, bool),
     light: &Light,
 ) -> Finish {
     match &part.shape {
@@ -199,14 +216,21 @@ fn finish(
         Shape::Limb(limb, bark) => {
             let thickness = limb.thickness();
             Finish {
-                albedo: bark_skin(*bark, surface, point, thickness),
+                albedo: match (bark, weathered) {
+                    (Bark::Wood, true) => weathered_bark(surface, point, thickness),
+                    _ => bark_skin(*bark, surface, point, thickness),
+                },
                 gloss: 0.02,
                 sharpness: 8,
                 translucency: 0.0,
             }
         }
         Shape::Leaf(leaf) => Finish {
-            albedo: leaf_skin(leaf.tint, surface, backside),
+            albedo: if weathered {
+                weathered_leaf(leaf, surface, backside)
+            } else {
+                leaf_skin(leaf.tint, surface, backside)
+            },
             gloss: if backside { 0.02 } else { 0.08 },
             sharpness: 14,
             translucency: 0.75,
@@ -279,6 +303,45 @@ fn leaf_skin(tint: f64, surface: &Surface, backside: bool) -> Rgb {
     let vein = 1.0 - smoothstep(0.0, 0.12, (phase - 0.5).abs());
     let pale = Rgb::new(0.42, 0.48, 0.20);
     blade.lerp(&pale, 0.45 * midrib + 0.10 * vein * (1.0 - midrib))
+}
+
+/// A leaf late in the season: dull above with patches and a paler rim, greyish below.
+fn weathered_leaf(leaf: &Leaf, surface: &Surface, backside: bool) -> Rgb {
+    let (u, v) = (surface.u, surface.v);
+    let key = (leaf.length * 1e8) as u64;
+    let patch = value_noise(key, u * 4.0, v * 3.0, 0.0);
+    let top = Rgb::new(0.045, 0.085, 0.030).lerp(&Rgb::new(0.20, 0.29, 0.07), leaf.tint);
+    let blade = if backside {
+        top.lerp(&Rgb::new(0.30, 0.34, 0.25), 0.65)
+    } else {
+        top
+    };
+    let midrib = 1.0 - smoothstep(0.02, 0.08, v.abs());
+    let phase = ((u - 0.3 * v.abs()) * 8.0).rem_euclid(1.0);
+    let vein = 1.0 - smoothstep(0.0, 0.14, (phase - 0.5).abs());
+    let rim = smoothstep(0.6, 1.0, v.abs());
+    let pale = Rgb::new(0.36, 0.40, 0.18);
+    let veined = blade.lerp(
+        &pale,
+        0.40 * midrib + 0.12 * vein * (1.0 - midrib) + 0.10 * rim,
+    );
+    let dry = smoothstep(0.86, 0.97, patch) * 0.6;
+    veined.lerp(&Rgb::new(0.22, 0.13, 0.05), dry) * (0.8 + 0.4 * patch)
+}
+
+/// Bark outdoors: grey-brown, ringed and streaked, with pale patches of lichen on older wood.
+fn weathered_bark(surface: &Surface, point: &Point3<f64>, thickness: f64) -> Rgb {
+    let ring = value_noise(79, surface.u * 160.0, thickness * 300.0, 0.0);
+    let grain = value_noise(80, point.x * 500.0, point.y * 180.0, point.z * 500.0);
+    let lichen = smoothstep(
+        0.62,
+        0.85,
+        value_noise(81, point.x * 70.0, point.y * 70.0, 0.0),
+    );
+    let old = smoothstep(0.005, 0.02, thickness);
+    let tone = Rgb::new(0.19, 0.13, 0.10).lerp(&Rgb::new(0.28, 0.235, 0.21), old);
+    let tone = tone * (0.65 + 0.35 * ring + 0.35 * grain);
+    tone.lerp(&Rgb::new(0.38, 0.37, 0.32), lichen * (0.25 + 0.35 * old))
 }
 
 /// From linear light in 4096 steps to sRGB bytes (IEC 61966-2-1).

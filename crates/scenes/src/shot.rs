@@ -1,10 +1,13 @@
+use crate::random::{Normal, Purpose, stream};
 use crate::raycast::{Raycast, raycast};
 use crate::scene::{Scene, SceneClass};
+use crate::scenery::photographed;
 use crate::sensing::sense;
 use crate::sensor::Sensor;
 use crate::shade::shade;
 use crate::truth::{AppleTruth, Truth};
 use crate::visibility::look_at;
+use crate::wood_seen::visible_wood;
 use crate::world::{Bark, Owner, Shape, World};
 use pomona_cloud::{Camera, ColorImage, Frame, GrayImage, PixelBox};
 
@@ -26,6 +29,11 @@ pub struct Shot {
     pub least_pixels: usize,
     /// Number of the apple that the scene is made for, where it is made for one.
     pub target: Option<usize>,
+    /// Share of an apple that must show for it to be boxed and known to the truth.
+    pub least_visible: f64,
+    /// Standard deviation by which each edge of a frame's box differs from the truth's, pixels: a person or a detector
+    /// draws it.
+    pub box_sd_px: f64,
 }
 
 impl Shot {
@@ -39,6 +47,8 @@ impl Shot {
             box_margin_px: 2.0,
             least_pixels: 30,
             target: None,
+            least_visible: 0.0,
+            box_sd_px: 0.0,
         }
     }
 
@@ -73,6 +83,9 @@ impl Shot {
                 self.box_margin_px,
                 self.least_pixels,
             )?;
+            if apple.visible_share < Some(self.least_visible) {
+                return None;
+            }
             let bounds = moved(apple.bounds, sensor.color_shift_px, &real);
             let target = self.target.map(|target| target == index);
             Some(AppleTruth {
@@ -83,9 +96,19 @@ impl Shot {
         };
         let apples: Vec<_> = (0..world.apples.len()).filter_map(known).collect();
         let color = shifted(shade(world, &real, cast), sensor.color_shift_px);
+        let color = match world.scenery {
+            Some(_) => photographed(&color, self.seed),
+            None => color,
+        };
         let depth = sense(world, &real, cast, sensor, self.seed);
         let mut frame = Frame::new(&self.id, stated.clone(), color, depth);
-        frame.boxes = Some(apples.iter().map(|a| a.bounds.clone()).collect());
+        frame.boxes = Some(self.drawn_boxes(&apples));
+        let mut wood = visible_wood(world, &real, cast);
+        let (right, down) = sensor.color_shift_px;
+        for point in wood.iter_mut().flat_map(|stretch| &mut stretch.points) {
+            point[0] += f64::from(right);
+            point[1] += f64::from(down);
+        }
         let mut truth = Truth::new(apples);
         truth.seed = Some(self.seed);
         truth.sensor = Some(sensor.name.to_string());
@@ -95,7 +118,26 @@ impl Shot {
             frame,
             truth,
             classes: Some(classes),
+            wood: Some(wood),
         }
+    }
+
+    /// The boxes as they are drawn: those of the truth where nobody errs.
+    fn drawn_boxes(&self, apples: &[AppleTruth]) -> Vec<PixelBox> {
+        let mut boxes: Vec<PixelBox> = apples.iter().map(|a| a.bounds.clone()).collect();
+        if self.box_sd_px > 0.0 {
+            let mut rng = stream(self.seed, Purpose::Boxes, 0);
+            let mut normal = Normal::default();
+            let mut error = || normal.draw(&mut rng).clamp(-2.0, 2.0) * self.box_sd_px;
+            let (width, height) = (self.camera.width as f64, self.camera.height as f64);
+            for bounds in &mut boxes {
+                bounds.x_min = (bounds.x_min + error()).clamp(0.0, width - 2.0);
+                bounds.y_min = (bounds.y_min + error()).clamp(0.0, height - 2.0);
+                bounds.x_max = (bounds.x_max + error()).clamp(bounds.x_min + 1.0, width);
+                bounds.y_max = (bounds.y_max + error()).clamp(bounds.y_min + 1.0, height);
+            }
+        }
+        boxes
     }
 }
 

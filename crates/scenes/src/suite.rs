@@ -1,4 +1,5 @@
 use crate::cameras::Make;
+use crate::dense::Dense;
 use crate::error::SceneError;
 use crate::lab::{Lab, Orientation};
 use crate::orchard::Orchard;
@@ -26,6 +27,9 @@ pub enum Suite {
     /// `harsh` and the like: the same orchard as a real camera sees it
     /// outdoors; see [`Sensor::outdoors`].
     Harsh(Make),
+    /// `dense`: 160 pieces of dense trees as a time-of-flight camera sees them; see [`Dense`] and
+    /// [`Sensor::time_of_flight_outdoors`].
+    Dense,
     /// `row`: ten whole trees with up to 40 apples each; see [`Row`].
     Row,
     /// `demo`: one frame of a fruiting tree, for pictures.
@@ -58,6 +62,7 @@ impl Suite {
         Self::Harsh(Make::Kinect),
         Self::Harsh(Make::AzureKinect),
         Self::Harsh(Make::D400),
+        Self::Dense,
         Self::Row,
         Self::Demo,
     ];
@@ -99,6 +104,7 @@ impl Suite {
             Self::Harsh(Make::Kinect) => "harsh-kinect",
             Self::Harsh(Make::AzureKinect) => "harsh-azure-kinect",
             Self::Harsh(Make::D400) => "harsh-d400",
+            Self::Dense => "dense",
             Self::Row => "row",
             Self::Demo => "demo",
         }
@@ -119,6 +125,7 @@ impl Suite {
             Self::Harsh(Make::Kinect) => "the orchard scenes outdoors, first Kinect",
             Self::Harsh(Make::AzureKinect) => "the orchard scenes outdoors, Azure Kinect",
             Self::Harsh(Make::D400) => "the orchard scenes outdoors, RealSense D400",
+            Self::Dense => "160 pieces of dense trees, a time-of-flight camera outdoors",
             Self::Row => "ten whole trees with up to 40 apples each",
             Self::Demo => "one fruiting tree against the sky",
         }
@@ -131,6 +138,7 @@ impl Suite {
             Self::Lab150 => 150,
             Self::Repeat(_) => 474,
             Self::Orchard | Self::Rivals | Self::Harsh(_) => 200,
+            Self::Dense => 160,
             Self::Row => 10,
             Self::Demo => 1,
         }
@@ -199,6 +207,7 @@ impl Case {
             Suite::Harsh(make) => {
                 self.orchard(Orchard::default(), make.sensor().outdoors(self.seed))
             }
+            Suite::Dense => self.dense(Sensor::time_of_flight_outdoors()),
             Suite::Row => self
                 .shot(Sensor::paper())
                 .take(&Row::default().world(self.seed)),
@@ -208,6 +217,19 @@ impl Case {
 
     fn shot(&self, sensor: Sensor) -> Shot {
         Shot::new(self.name.clone(), Shot::paper_camera(), sensor, self.seed)
+    }
+
+    fn dense(&self, sensor: Sensor) -> Scene {
+        let dense = Dense::default();
+        let camera = Dense::camera(self.seed);
+        let (world, cast) = dense.layout(&camera, self.seed);
+        let shot = Shot {
+            least_visible: dense.least_visible,
+            box_margin_px: 1.0,
+            box_sd_px: Dense::BOX_SD_PX,
+            ..Shot::new(self.name.clone(), camera, sensor, self.seed)
+        };
+        shot.develop(&world, &cast)
     }
 
     fn orchard(&self, orchard: Orchard, sensor: Sensor) -> Scene {

@@ -4,6 +4,7 @@ use crate::leaf::Leaf;
 use crate::light::Light;
 use crate::limb::LimbPiece;
 use crate::ray::{Ray, Surface};
+use crate::scenery::Scenery;
 use nalgebra::{Isometry3, Point3, Vector3};
 use pomona_geometry::{Line, Plane};
 
@@ -141,6 +142,8 @@ pub struct World {
     pub(crate) apples: Vec<Apple>,
     pub(crate) branches: Vec<Branch>,
     pub(crate) light: Light,
+    /// What stands far behind, where it is not a plain sky.
+    pub(crate) scenery: Option<Scenery>,
 }
 
 /// Length of the pieces into which a limb is cut, metres.
@@ -219,6 +222,7 @@ impl World {
             apples: self.apples.iter().map(|a| a.transformed(by)).collect(),
             branches: self.branches.iter().map(branch).collect(),
             light: self.light.transformed(by),
+            scenery: self.scenery,
         }
     }
 

@@ -62,7 +62,7 @@ fn first_scenes_of_all_suites_hold_together() {
                 .iter()
                 .filter(|a| a.target == Some(true))
                 .count();
-            let expected = usize::from(!matches!(suite, Suite::Row | Suite::Demo));
+            let expected = usize::from(!matches!(suite, Suite::Dense | Suite::Row | Suite::Demo));
             assert_eq!(targets, expected, "{}", case.name);
         }
     }
@@ -75,6 +75,7 @@ fn a_case_gives_the_same_scene_twice_and_the_next_case_another() {
         Suite::Rivals,
         Suite::Repeat(Density::Paper),
         Suite::Harsh(Make::D400),
+        Suite::Dense,
     ] {
         let cases: Vec<_> = suite.cases_to(5).skip(3).collect();
         assert_eq!(cases[0].scene(), cases[0].scene());

@@ -5,9 +5,11 @@
 mod depth_patch;
 mod noise;
 mod projection;
+mod quality;
 mod windows;
 
 pub(crate) use depth_patch::DepthPatch;
 pub(crate) use noise::{DepthNoise, depth_jump_m};
 pub(crate) use projection::Projection;
+pub use quality::DepthQuality;
 pub(crate) use windows::{window_of_box, window_of_sphere};

@@ -154,6 +154,7 @@ fn find_branch(
                 apple,
                 bounds: &answer.bounds,
                 sigma: search.sigma,
+                smear: frame.depth_quality().smear(),
                 config,
             };
             let ranked = search.candidates(&ranked, rng);
@@ -244,6 +245,7 @@ fn decide_by_wood(
 fn wood_candidate(c: &WoodCandidate) -> BranchCandidate {
     BranchCandidate {
         wood: Some(c.wood),
+        contrast: Some(c.contrast),
         ..branch_candidate(&c.candidate)
     }
 }

@@ -1,7 +1,7 @@
 use crate::binary::pomona;
 use crate::scene::Bench;
 use crate::schema::Schema;
-use serde_json::{Value, json};
+use serde_json::json;
 use std::path::{Path, PathBuf};
 
 #[test]

@@ -74,6 +74,9 @@ const ODDS_IN_FRONT: f64 = -0.59;
 const ODDS_DEPTH_SCORE: f64 = 6.0;
 const LEAST_DEPTH_SCORE: f64 = 0.5;
 
+/// … there for each unit of contrast of what depth has found as well, …
+const ODDS_BOTH: f64 = 10.0;
+
 /// … and there for what depth has not found.
 const ODDS_NOT_IN_DEPTH: f64 = -12.0;
 
@@ -93,7 +96,7 @@ impl Evidence {
             0.0
         };
         let by_depth = depth_score.map_or(ODDS_NOT_IN_DEPTH, |score| {
-            ODDS_DEPTH_SCORE * (score - LEAST_DEPTH_SCORE)
+            ODDS_DEPTH_SCORE * (score - LEAST_DEPTH_SCORE) + ODDS_BOTH * self.contrast
         });
         let not_shown = if self.length > 0.0 {
             0.0
@@ -153,18 +156,21 @@ impl Band<'_> {
         let profile: Vec<f64> = (-half..=half)
             .map(|k| self.contrast(line, nearest + f64::from(k)))
             .collect();
-        let evidence = self.at(&profile, &(0..profile.len()), f64::from(half));
+        // Leaves may hide the foot itself: the best piece about it.
+        let pieces = (0..profile.len()).map(|k| self.at(&profile, &(0..profile.len()), k as f64));
+        let best = pieces.max_by(|a, b| a.contrast.total_cmp(&b.contrast));
+        let contrast = best.map_or(0.0, |piece| piece.contrast);
         let bridge = (BRIDGE_RADII * self.radius).ceil() as usize;
         let about = |stretch: &Range<usize>| {
             stretch.start <= half as usize + bridge && half as usize <= stretch.end + bridge
         };
         let shown = stretches(&profile, bridge).find(about);
         Evidence {
+            contrast,
             middle: nearest,
             foot: nearest,
             distance: self.distance(line, nearest),
             length: shown.map_or(0.0, |stretch| stretch.len() as f64),
-            ..evidence
         }
     }
 

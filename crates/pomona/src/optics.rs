@@ -3,6 +3,7 @@
 //! Detection and both methods read the image through this module.
 
 mod depth_patch;
+mod law;
 mod noise;
 mod projection;
 mod quality;

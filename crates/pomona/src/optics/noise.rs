@@ -1,3 +1,4 @@
+use super::law::{self, GENERIC};
 use super::quality::DepthQuality;
 use crate::config::{RobustConfig, SensorPreset};
 
@@ -46,13 +47,9 @@ impl DepthNoise {
     /// Standard deviation of a reading at depth `z`, metres; at least a tenth of a millimetre.
     #[inline]
     pub(crate) fn sigma(&self, z: f64) -> f64 {
-        let [a, b, c] = self.law;
-        (a + z * (b + z * c)).max(1e-4)
+        law::sigma(self.law, z)
     }
 }
-
-/// Standard deviation of a reading of no camera in particular, metres: a, b and c of a + b z + c z².
-pub(super) const GENERIC: [f64; 3] = [0.0005, 0.0, 0.0014];
 
 /// Between these factors of that law an image's noise is believed.
 const LEAST_FACTOR: f64 = 0.3;

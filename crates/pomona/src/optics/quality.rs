@@ -1,6 +1,6 @@
 //! What a depth image tells about its own errors: noise, errors that neighbours share, smeared edges.
 
-use super::noise::{DepthNoise, GENERIC};
+use super::law::{self, GENERIC};
 use pomona_cloud::DepthImage;
 
 /// Errors of a depth image, estimated from the image itself.
@@ -94,10 +94,6 @@ fn rows(depth: &DepthImage) -> impl Iterator<Item = &[u16]> {
 /// factor of the generic law, and in metres.
 fn noise_across(depth: &DepthImage, scale: f64, distance: usize) -> Option<(f64, f64)> {
     let same = (SAME_SURFACE_M / scale) as i32;
-    let law = DepthNoise {
-        law: GENERIC,
-        correlation_px: 1.0,
-    };
     let mut factors: Vec<f32> = Vec::new();
     let mut metres: Vec<f32> = Vec::new();
     for row in rows(depth) {
@@ -109,7 +105,7 @@ fn noise_across(depth: &DepthImage, scale: f64, distance: usize) -> Option<(f64,
             // The variance of a − 2b + c is six times that of a reading.
             let off = f64::from((a + c - 2 * b).abs()) * scale / 6f64.sqrt();
             metres.push(off as f32);
-            factors.push((off / law.sigma(f64::from(b) * scale)) as f32);
+            factors.push((off / law::sigma(GENERIC, f64::from(b) * scale)) as f32);
         }
     }
     Some((quiet_sd(&mut factors)?, quiet_sd(&mut metres)?))

@@ -156,6 +156,10 @@ fn the_schema_accepts_what_is_read_and_refuses_the_rest() {
         c.robust.noise_m = Some([0.001, 0.0, 0.0]);
         c.robust.radius_mean_m = Some(0.04);
         c.robust.radius_sd_m = Some(0.01);
+        c.robust.box_radius_sd_m = Some(0.001);
+        c.robust.rim_share = Some(0.1);
+        c.robust.contour_sd_px = Some(0.7);
+        c.robust.shape_sd_m = Some(0.0003);
     }))
     .unwrap();
     schema.accepts(&defaults);

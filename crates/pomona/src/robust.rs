@@ -143,7 +143,7 @@ fn find_branch(
     let candidates = search.candidates(&mut scratch.sections);
     let weighed = |candidate: &Candidate| {
         let features = likeness::features(candidate, &apple, search.sigma);
-        Weighed::new(Position::new(candidate.foot), features)
+        Weighed::new(Position::new(candidate.foot), &features)
     };
     let weighed: Vec<Weighed> = candidates.iter().map(weighed).collect();
     let likely = |weighed: &Weighed| likeness::probability(&weighed.features);

@@ -100,8 +100,11 @@ pub struct Weighed {
 }
 
 impl Weighed {
-    pub(crate) fn new(foot: Position<CameraFrame>, features: [f64; WOOD_FEATURES.len()]) -> Self {
-        Self { foot, features }
+    pub(crate) fn new(foot: Position<CameraFrame>, features: &[f64; WOOD_FEATURES.len()]) -> Self {
+        Self {
+            foot,
+            features: *features,
+        }
     }
 }
 

@@ -78,6 +78,7 @@ pub use detection::{
 };
 pub use error::PickError;
 pub use frame::CheckedFrame;
+pub use optics::DepthQuality;
 pub use outcome::{
     AppleAnswer, ApplePlan, BranchCandidate, CONFIDENCE_FEATURES, DirectionSource, Evidence,
     FallbackDirection, FittedApple, FittedBranch, FrameAnswer, NearestObstacle, PickDirection,

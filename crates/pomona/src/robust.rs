@@ -18,6 +18,7 @@ mod silhouette;
 mod sphere;
 mod spheroid;
 mod strips;
+mod trust;
 mod viewpoint;
 mod wood;
 
@@ -39,6 +40,7 @@ use pomona_transforms::{Direction, Position, PositionCovariance};
 use rand_chacha::ChaCha8Rng;
 use shell::{APPLE, Shell};
 use std::time::Instant;
+use trust::Trust;
 use wood::{WoodCandidate, WoodSearch};
 
 /// Radii about the centre within which branches are looked for, beside the length along them.
@@ -103,7 +105,8 @@ fn find_apple(
         config: &config.robust,
         fruit: &config.fruit,
         projection,
-        noise: DepthNoise::of(&config.robust),
+        noise: DepthNoise::of(&config.robust, frame.depth_quality()),
+        trust: Trust::of(&config.robust, frame.depth_quality()),
         bounds: &answer.bounds,
         window,
     };
@@ -123,7 +126,7 @@ fn find_branch(
     answer: &mut AppleAnswer,
 ) -> Result<(), Status> {
     let start = Instant::now();
-    let noise = DepthNoise::of(config);
+    let noise = DepthNoise::of(config, frame.depth_quality());
     let spheroid = found.fit.spheroid;
     let apple = spheroid.sphere();
     let reach = (config.branch_reach + SHELL_MARGIN) * apple.radius;
@@ -165,6 +168,7 @@ fn find_branch(
                 apple,
                 bounds: &answer.bounds,
                 sigma: search.sigma,
+                smear: frame.depth_quality().smear(),
                 config,
             };
             let ranked = search.candidates(&distinct, rng);
@@ -255,6 +259,7 @@ fn decide_by_wood(
 fn wood_candidate(c: &WoodCandidate) -> BranchCandidate {
     BranchCandidate {
         wood: Some(c.wood),
+        contrast: Some(c.contrast),
         ..branch_candidate(&c.candidate)
     }
 }

@@ -79,6 +79,9 @@ settings! {
         branch_bend_sd_per_m: f64 = 0.2, "per metre", above(0.0).at_most(1000.0);
         /// Lines that are looked at. More: branches that are barely visible are found more often, and slower.
         branch_guesses: usize = 45, "count", within(1.0, 1e5);
+        /// Whether the nearest candidate that is probably a branch is answered. Off: the likeliest to be one, near or
+        /// far.
+        nearest_first: bool = true, "yes or no", any();
         /// Answers with a smaller confidence are refused. Higher: fewer and better answers.
         least_confidence: f64 = 0.35, "probability", within(0.0, 1.0);
     }

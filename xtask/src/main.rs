@@ -15,7 +15,7 @@ mod ci;
 mod deny;
 mod docs;
 mod features;
-mod fit_confidence;
+mod fit;
 mod modules;
 mod msrv;
 mod package;
@@ -65,6 +65,8 @@ enum Command {
     Ablate(ablate::Args),
     /// Fits the coefficients of the confidence again, and prints them beside those in use
     FitConfidence,
+    /// The same of the probability that a branch candidate is wood
+    FitWood,
     /// Does a copy of the engine's folder build without the rest of the workspace?
     Standalone(standalone::Args),
     /// Do our libraries still suit those who built against their last release?
@@ -84,7 +86,8 @@ fn main() -> ExitCode {
         Command::Bench(args) => bench::run(&args),
         Command::Regress(args) => regress::run(&args),
         Command::Ablate(args) => ablate::run(&args),
-        Command::FitConfidence => fit_confidence::run(),
+        Command::FitConfidence => fit::run("confidence"),
+        Command::FitWood => fit::run("wood"),
         Command::Standalone(args) => standalone::run(&args),
         Command::Semver(args) => semver::run(&args),
     };

@@ -36,7 +36,9 @@ pub(crate) fn direction(
     };
     let (width, height) = frame.size();
     let window = window_of_sphere(&reach, &frame.frame().camera, width, height);
-    frame.copy_points(window, points);
+    // The frame's camera has been checked: it deprojects.
+    let (depth, camera) = (&frame.frame().depth, &frame.frame().camera);
+    points.fill(depth, camera, window).ok()?;
     if kind == FallbackKind::AwayFromObstacle
         && let Some(direction) = to_obstacle(&sphere, points)
     {

@@ -1,5 +1,5 @@
 use crate::error::PickError;
-use crate::optics::Projection;
+use crate::optics::{DepthQuality, Projection};
 use pomona_cloud::{DepthPoints, Frame, GrayImage, PixelWindow};
 use std::sync::OnceLock;
 
@@ -9,6 +9,7 @@ pub struct CheckedFrame<'a> {
     frame: &'a Frame,
     projection: Projection<'a>,
     points: OnceLock<DepthPoints>,
+    quality: OnceLock<DepthQuality>,
     wood: Option<&'a GrayImage>,
 }
 
@@ -39,6 +40,7 @@ impl<'a> CheckedFrame<'a> {
             frame,
             projection,
             points: OnceLock::new(),
+            quality: OnceLock::new(),
             wood: None,
         })
     }
@@ -71,6 +73,12 @@ impl<'a> CheckedFrame<'a> {
     /// The frame.
     pub fn frame(&self) -> &'a Frame {
         self.frame
+    }
+
+    /// What the depth image tells about its own errors; estimated when first asked for.
+    pub fn depth_quality(&self) -> &DepthQuality {
+        self.quality
+            .get_or_init(|| DepthQuality::of(&self.frame.depth, self.frame.camera.depth_scale))
     }
 
     /// The points of the whole depth image, in the order of their pixels; deprojected when first asked for.

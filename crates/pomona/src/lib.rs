@@ -78,13 +78,15 @@ pub use detection::{
 };
 pub use error::PickError;
 pub use frame::CheckedFrame;
+pub use optics::DepthQuality;
 pub use outcome::{
     AppleAnswer, ApplePlan, BranchCandidate, CONFIDENCE_FEATURES, DirectionSource, Evidence,
     FallbackDirection, FittedApple, FittedBranch, FrameAnswer, NearestObstacle, PickDirection,
-    PlannedApproach, PlannedTurn, RobotFromCamera, RobotTarget, StageTimes, Status,
+    PlannedApproach, PlannedTurn, RobotFromCamera, RobotTarget, StageTimes, Status, WOOD_FEATURES,
+    Weighed,
 };
 pub use picker::Picker;
 pub use pomona_approach::{ApproachConfig, Gripper};
 pub use pomona_settings::ConfigError;
 pub use robot::{Robot, RobotPlan};
-pub use robust::CONFIDENCE_MODEL;
+pub use robust::{CONFIDENCE_MODEL, WOOD_MODEL};

@@ -11,8 +11,9 @@ mod frame;
 mod plan;
 mod robot;
 mod status;
+mod wood;
 
-pub use apple::{AppleAnswer, Evidence, StageTimes};
+pub use apple::{AppleAnswer, Evidence, StageTimes, Weighed};
 pub use confidence::CONFIDENCE_FEATURES;
 pub(crate) use direction::unit;
 pub use direction::{DirectionSource, FallbackDirection, PickDirection};
@@ -21,3 +22,4 @@ pub use frame::FrameAnswer;
 pub use plan::{ApplePlan, NearestObstacle, PlannedApproach, PlannedTurn};
 pub use robot::{RobotFromCamera, RobotTarget};
 pub use status::Status;
+pub use wood::WOOD_FEATURES;

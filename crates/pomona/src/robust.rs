@@ -8,33 +8,39 @@ mod blocks;
 mod branch;
 mod confidence;
 mod cross_section;
+mod likeness;
 mod line_hypothesis;
 mod nearest;
 mod ray;
+mod section_set;
 mod shell;
 mod silhouette;
 mod sphere;
 mod spheroid;
 mod strips;
+mod trust;
 mod viewpoint;
 mod wood;
 
 pub use confidence::CONFIDENCE_MODEL;
+pub use likeness::WOOD_MODEL;
 
 use crate::config::{Config, RobustConfig};
 use crate::frame::CheckedFrame;
 use crate::optics::{DepthNoise, window_of_box};
 use crate::outcome::{
-    AppleAnswer, BranchCandidate, FittedApple, FittedBranch, PickDirection, Status,
+    AppleAnswer, BranchCandidate, FittedApple, FittedBranch, PickDirection, Status, Weighed,
 };
 use apple::{AppleBuffers, AppleSearch, MARGIN_PX, SeenApple};
 use branch::{Candidate, Search};
 use cross_section::CrossSection;
+use nearest::Ranked;
 use pomona_cloud::{PixelBox, PixelWindow};
 use pomona_transforms::{Direction, Position, PositionCovariance};
 use rand_chacha::ChaCha8Rng;
 use shell::{APPLE, Shell};
 use std::time::Instant;
+use trust::Trust;
 use wood::{WoodCandidate, WoodSearch};
 
 /// Radii about the centre within which branches are looked for, beside the length along them.
@@ -99,7 +105,8 @@ fn find_apple(
         config: &config.robust,
         fruit: &config.fruit,
         projection,
-        noise: DepthNoise::of(&config.robust),
+        noise: DepthNoise::of(&config.robust, frame.depth_quality()),
+        trust: Trust::of(&config.robust, frame.depth_quality()),
         bounds: &answer.bounds,
         window,
     };
@@ -119,7 +126,7 @@ fn find_branch(
     answer: &mut AppleAnswer,
 ) -> Result<(), Status> {
     let start = Instant::now();
-    let noise = DepthNoise::of(config);
+    let noise = DepthNoise::of(config, frame.depth_quality());
     let spheroid = found.fit.spheroid;
     let apple = spheroid.sphere();
     let reach = (config.branch_reach + SHELL_MARGIN) * apple.radius;
@@ -136,12 +143,22 @@ fn find_branch(
         sigma: noise.sigma(apple.center.z),
         config,
     };
-    let ranked = nearest::ranked(&search.candidates(&mut scratch.sections), &apple);
+    let candidates = search.candidates(&mut scratch.sections);
+    let weighed = |candidate: &Candidate| {
+        let features = likeness::features(candidate, &apple, search.sigma);
+        Weighed::new(Position::new(candidate.foot), &features)
+    };
+    let weighed: Vec<Weighed> = candidates.iter().map(weighed).collect();
+    let likely = |weighed: &Weighed| likeness::probability(&weighed.features);
+    let by_wood: Vec<f64> = weighed.iter().map(likely).collect();
+    answer.evidence.weighed = weighed;
+    let by_depth = nearest::ranked(&candidates, &by_wood, &apple, config.nearest_first);
+    let distinct: Vec<Candidate> = by_depth.iter().map(|c| c.candidate).collect();
     let (ranked, decided) = match frame.wood() {
         None => {
-            answer.candidates = ranked.iter().map(branch_candidate).collect();
-            let decided = decide(found, &ranked, config, answer);
-            (ranked, decided)
+            answer.candidates = distinct.iter().map(branch_candidate).collect();
+            let decided = decide(found, &by_depth, config, answer);
+            (distinct, decided)
         }
         Some(wood) => {
             let search = WoodSearch {
@@ -151,9 +168,10 @@ fn find_branch(
                 apple,
                 bounds: &answer.bounds,
                 sigma: search.sigma,
+                smear: frame.depth_quality().smear(),
                 config,
             };
-            let ranked = search.candidates(&ranked, rng);
+            let ranked = search.candidates(&distinct, rng);
             answer.candidates = ranked.iter().map(wood_candidate).collect();
             let decided = decide_by_wood(found, &ranked, config, answer);
             (ranked.iter().map(|c| c.candidate).collect(), decided)
@@ -172,11 +190,11 @@ fn find_branch(
 /// Adds the branch and, where it is sure enough, the direction.
 fn decide(
     found: &SeenApple,
-    ranked: &[Candidate],
+    ranked: &[Ranked],
     config: &RobustConfig,
     answer: &mut AppleAnswer,
 ) -> Result<(), Status> {
-    let Some(best) = ranked.first() else {
+    let Some(best) = ranked.first().map(|best| &best.candidate) else {
         return Err(confidence::without_candidate(found));
     };
     let center = Position::new(found.fit.spheroid.center);
@@ -184,7 +202,7 @@ fn decide(
         .sqrt()
         .hypot(best.foot_sd)
         / best.distance.max(1e-3);
-    let features = confidence::features(found, ranked);
+    let features = confidence::features(found, ranked, sd);
     let confidence = features.as_ref().map_or(0.0, confidence::probability);
     answer.evidence.confidence_features = features;
     answer.confidence = Some(confidence);
@@ -241,6 +259,7 @@ fn decide_by_wood(
 fn wood_candidate(c: &WoodCandidate) -> BranchCandidate {
     BranchCandidate {
         wood: Some(c.wood),
+        contrast: Some(c.contrast),
         ..branch_candidate(&c.candidate)
     }
 }

@@ -4,6 +4,7 @@ use super::facts::Facts;
 use super::image::add_fill;
 use crate::pick::PICKS;
 use crate::summary::plural;
+use pomona::DepthQuality;
 use pomona_cloud::{DepthPoints, Frame, read_tum};
 use pomona_scenes::{TRUTH_FILE, Truth};
 use pomona_statistics::lower_median;
@@ -29,6 +30,7 @@ fn frame(path: &Path) -> anyhow::Result<Facts> {
     add_camera(&mut facts, &frame.camera);
     add_fill(&mut facts, &frame.depth);
     add_depth_range(&mut facts, &frame);
+    add_quality(&mut facts, &frame);
     match &frame.boxes {
         None => facts.add(
             "boxes",
@@ -80,5 +82,34 @@ fn add_depth_range(facts: &mut Facts, frame: &Frame) {
             median * 1000.0
         );
         facts.add("z", vec![low, median, high], text);
+    }
+}
+
+/// What the depth image tells about its own errors.
+fn add_quality(facts: &mut Facts, frame: &Frame) {
+    let quality = DepthQuality::of(&frame.depth, frame.camera.depth_scale);
+    if let Some(noise) = quality.noise {
+        let text = format!("{noise:.2} of that of `generic`");
+        facts.add("depth_noise", noise, text);
+    }
+    if let Some(shared) = quality.shared_error_m {
+        let text = format!("{:.1} mm shared by neighbours", shared * 1000.0);
+        facts.add("depth_shared_error", shared, text);
+    }
+    match quality.smeared_share {
+        None => facts.add(
+            "smeared_edges",
+            serde_json::Value::Null,
+            "too few edges to tell; taken to be sharp",
+        ),
+        Some(share) => {
+            let kind = match quality.smear() {
+                0.0 => "sharp",
+                s if s < 1.0 => "partly smeared",
+                _ => "smeared: rims and curvature are believed less",
+            };
+            let text = format!("{:.0} % of them, {kind}", share * 100.0);
+            facts.add("smeared_edges", share, text);
+        }
     }
 }

@@ -1,7 +1,7 @@
 use crate::binary::pomona;
 use crate::scene::Bench;
 use crate::schema::Schema;
-use serde_json::{Value, json};
+use serde_json::json;
 use std::path::{Path, PathBuf};
 
 #[test]
@@ -156,6 +156,10 @@ fn the_schema_accepts_what_is_read_and_refuses_the_rest() {
         c.robust.noise_m = Some([0.001, 0.0, 0.0]);
         c.robust.radius_mean_m = Some(0.04);
         c.robust.radius_sd_m = Some(0.01);
+        c.robust.box_radius_sd_m = Some(0.001);
+        c.robust.rim_share = Some(0.1);
+        c.robust.contour_sd_px = Some(0.7);
+        c.robust.shape_sd_m = Some(0.0003);
     }))
     .unwrap();
     schema.accepts(&defaults);
@@ -172,16 +176,6 @@ fn the_schema_accepts_what_is_read_and_refuses_the_rest() {
     ] {
         schema.refuses(&defaults, place, Some(new));
     }
-    let text = std::fs::read_to_string(docs("settings-time-of-flight.toml")).unwrap();
-    let file: Value = toml::from_str(&text).unwrap();
-    schema.accepts(&file);
-}
-
-#[test]
-fn the_settings_in_the_docs_are_settings() {
-    let path = docs("settings-time-of-flight.toml");
-    let config = pomona::Config::read(path).unwrap();
-    assert_eq!(config.robust.rim_share, 0.15);
 }
 
 #[test]

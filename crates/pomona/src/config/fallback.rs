@@ -5,7 +5,7 @@ settings! {
     pub struct FallbackConfig {
         /// What a refused apple with a sphere gets beside its refusal: a direction that is not derived from a branch,
         /// labelled as such. The apple stays refused.
-        kind: FallbackKind = FallbackKind::None, "name", any();
+        kind: FallbackKind = FallbackKind::AwayFromObstacle, "name", any();
     }
 }
 

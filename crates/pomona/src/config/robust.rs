@@ -21,7 +21,7 @@ settings! {
     /// Settings of the method `robust`.
     pub struct RobustConfig {
         /// The depth camera. Decides how far two readings may differ before they disagree; also for the depth check,
-        /// whichever the method.
+        /// whichever the method. With `generic`, the fits take the noise of smeared depth from the image itself.
         sensor: SensorPreset = SensorPreset::Generic, "name", any();
         /// Standard deviation of a depth reading at depth z as a + b z + c z²: [a, b, c] for metres. Left out: that of
         /// `sensor`.
@@ -33,11 +33,11 @@ settings! {
         /// of the window of radii, 0.006 for the default one.
         radius_sd_m: Option<f64> = None, "metres", above(0.0).at_most(1.0), example 0.006;
         /// Standard deviation of a radius read off the smaller side of a box. 0: boxes do not say how large apples
-        /// are. For drawn boxes and smeared depth 0.001, for boxes around the visible part of occluded apples 0.
-        box_radius_sd_m: f64 = 0.0, "metres", within(0.0, 1.0);
-        /// Share of a box's width and height on each side whose readings are left out. For time-of-flight cameras,
-        /// which smear an apple's rim backwards, 0.15.
-        rim_share: f64 = 0.0, "share", within(0.0, 0.4);
+        /// are. Left out: by the frame, 0.001 where its depth is smeared, 0 where edges are sharp.
+        box_radius_sd_m: Option<f64> = None, "metres", within(0.0, 1.0), example 0.001;
+        /// Share of a box's width and height on each side whose readings are left out. Left out: by the frame, 0.15
+        /// where its depth is smeared, 0 where edges are sharp.
+        rim_share: Option<f64> = None, "share", within(0.0, 0.4), example 0.15;
         /// Mean of the prior of the flattening: the share by which apples are lower than wide.
         flattening_mean: f64 = 0.07, "share", within(0.0, 1.0);
         /// Standard deviation of that prior. Larger: shapes are fitted more freely, and noise with them.
@@ -56,10 +56,12 @@ settings! {
         blocks: usize = 24, "count", within(1.0, 1e5);
         /// Weight of the box against the points when spheres compete. 0 for boxes that mean little.
         box_weight: f64 = 0.2, "weight", within(0.0, 100.0);
-        /// Standard deviation of the place of the apple's silhouette. Larger: the silhouette counts for less.
-        contour_sd_px: f64 = 0.7, "pixels", above(0.0).at_most(1000.0);
-        /// Standard deviation of an apple's surface about a spheroid. Larger: single readings count for less.
-        shape_sd_m: f64 = 0.0003, "metres", above(0.0).at_most(1000.0);
+        /// Standard deviation of the place of the apple's silhouette. Larger: the silhouette counts for less. Left out:
+        /// by the frame, from 0.7 where edges are sharp to 3 where depth is smeared.
+        contour_sd_px: Option<f64> = None, "pixels", above(0.0).at_most(1000.0), example 0.7;
+        /// Standard deviation of an apple's surface about a spheroid. Larger: single readings count for less. Left
+        /// out: by the frame, 0.0003, and where depth is smeared the error that neighbouring readings share.
+        shape_sd_m: Option<f64> = None, "metres", above(0.0).at_most(1000.0), example 0.0003;
         /// Smallest radius of a branch. Smaller: stalks count as branches.
         branch_radius_min_m: f64 = 0.0013, "metres", above(0.0).at_most(0.1);
         /// Largest radius of a branch. Larger: posts and trunks count as branches.
@@ -77,6 +79,9 @@ settings! {
         branch_bend_sd_per_m: f64 = 0.2, "per metre", above(0.0).at_most(1000.0);
         /// Lines that are looked at. More: branches that are barely visible are found more often, and slower.
         branch_guesses: usize = 45, "count", within(1.0, 1e5);
+        /// Whether the nearest candidate that is probably a branch is answered. Off: the likeliest to be one, near or
+        /// far.
+        nearest_first: bool = true, "yes or no", any();
         /// Answers with a smaller confidence are refused. Higher: fewer and better answers.
         least_confidence: f64 = 0.35, "probability", within(0.0, 1.0);
     }

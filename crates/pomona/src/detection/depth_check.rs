@@ -102,7 +102,7 @@ impl<'a> DepthChecker<'a> {
             projection,
             config: &config.detection,
             radii: config.fruit.checked(),
-            noise: DepthNoise::of(&config.robust),
+            noise: DepthNoise::stated(&config.robust),
         }
     }
 

@@ -1,3 +1,5 @@
+use super::law::{self, GENERIC};
+use super::quality::DepthQuality;
 use crate::config::{RobustConfig, SensorPreset};
 
 /// Standard deviation of a depth reading by its depth, and how far neighbours share it.
@@ -11,7 +13,7 @@ pub(crate) struct DepthNoise {
 
 impl DepthNoise {
     /// That of the readings, as the settings state it.
-    pub(crate) fn of(config: &RobustConfig) -> Self {
+    pub(crate) fn stated(config: &RobustConfig) -> Self {
         let preset = config.sensor.noise();
         Self {
             law: config.noise_m.unwrap_or(preset.law),
@@ -19,13 +21,39 @@ impl DepthNoise {
         }
     }
 
+    /// The same; of a camera that the settings do not name, as the image tells it.
+    pub(crate) fn of(config: &RobustConfig, quality: &DepthQuality) -> Self {
+        match (config.sensor, config.noise_m) {
+            (SensorPreset::Generic, None) => Self::generic(quality),
+            _ => Self::stated(config),
+        }
+    }
+
+    /// The generic law, and where depth is smeared the level that the image shows.
+    fn generic(quality: &DepthQuality) -> Self {
+        let preset = SensorPreset::Generic.noise();
+        let smear = quality.smear();
+        let factor = quality
+            .noise
+            .unwrap_or(1.0)
+            .clamp(LEAST_FACTOR, MOST_FACTOR);
+        let factor = 1.0 + smear * (factor - 1.0);
+        Self {
+            law: preset.law.map(|term| factor * term),
+            ..preset
+        }
+    }
+
     /// Standard deviation of a reading at depth `z`, metres; at least a tenth of a millimetre.
     #[inline]
     pub(crate) fn sigma(&self, z: f64) -> f64 {
-        let [a, b, c] = self.law;
-        (a + z * (b + z * c)).max(1e-4)
+        law::sigma(self.law, z)
     }
 }
+
+/// Between these factors of that law an image's noise is believed.
+const LEAST_FACTOR: f64 = 0.3;
+const MOST_FACTOR: f64 = 3.0;
 
 /// Least difference of depth between neighbours that belong to different things, metres.
 const LEAST_JUMP_M: f64 = 0.008;
@@ -39,7 +67,7 @@ pub(crate) fn depth_jump_m(sigma: f64, factor: f64) -> f64 {
 impl SensorPreset {
     fn noise(self) -> DepthNoise {
         let (law, correlation_px) = match self {
-            Self::Generic => ([0.0005, 0.0, 0.0014], 1.0),
+            Self::Generic => (GENERIC, 1.0),
             Self::Paper => ([0.0, 0.0, 0.001_562_5], 1.0),
             Self::Kinect => ([0.001_504, -0.001_52, 0.0019], 1.0),
             Self::AzureKinect => ([0.0007, 0.0008, 0.0], 1.0),

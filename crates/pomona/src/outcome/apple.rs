@@ -4,9 +4,10 @@ use super::fitted::{BranchCandidate, FittedApple, FittedBranch};
 use super::plan::ApplePlan;
 use super::robot::RobotTarget;
 use super::status::Status;
+use super::wood::WOOD_FEATURES;
 use crate::detection::BoxOrigin;
 use pomona_cloud::PixelBox;
-use pomona_transforms::{CameraFrame, Direction};
+use pomona_transforms::{CameraFrame, Direction, Position};
 use std::time::Duration;
 
 /// The answer for one box. What is not known is `None`.
@@ -84,6 +85,27 @@ pub struct Evidence {
     /// What the confidence of `robust` is computed from, in the order of
     /// [`CONFIDENCE_FEATURES`](crate::CONFIDENCE_FEATURES); absent where there is no candidate.
     pub confidence_features: Option<[f64; CONFIDENCE_FEATURES.len()]>,
+    /// What `robust` weighs each of the branches by that it found in depth; one branch may be there several times.
+    pub weighed: Vec<Weighed>,
+}
+
+/// A branch found in depth, and what the probability that it is wood is computed from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Weighed {
+    /// Point of its axis nearest to the apple's centre.
+    pub foot: Position<CameraFrame>,
+    /// In the order of [`WOOD_FEATURES`](crate::WOOD_FEATURES).
+    pub features: [f64; WOOD_FEATURES.len()],
+}
+
+impl Weighed {
+    pub(crate) fn new(foot: Position<CameraFrame>, features: &[f64; WOOD_FEATURES.len()]) -> Self {
+        Self {
+            foot,
+            features: *features,
+        }
+    }
 }
 
 /// The time that each stage of one apple took.

@@ -1,13 +1,11 @@
 /// What each number of [`Evidence::confidence_features`](crate::Evidence::confidence_features) is. Lengths are in radii
 /// of the apple; all are clipped to the range in which the scenes of the fit have many.
-pub const CONFIDENCE_FEATURES: [&str; 9] = [
+pub const CONFIDENCE_FEATURES: [&str; 7] = [
     "constant 1",
-    "score of the best candidate",
+    "log odds of the best candidate being the nearest wood",
+    "log odds of its being wood",
     "visible length",
-    "visible length on its shorter side",
-    "margin over the next direction",
+    "log of the standard deviation of the direction",
     "agreement of the spheroid",
     "visible share of the apple",
-    "atypical share of the length",
-    "empty share of the length",
 ];

@@ -106,6 +106,8 @@ pub struct BranchCandidate {
     /// Probability that it is wood, where the colour image tells; the score is then the probability that it is the
     /// nearest wood.
     pub wood: Option<f64>,
+    /// By how much it stands out as wood from what lies beside it, −1 to 1, where the colour image tells.
+    pub contrast: Option<f64>,
 }
 
 impl BranchCandidate {
@@ -129,6 +131,7 @@ impl BranchCandidate {
             empty_m: 0.0,
             hidden_m: 0.0,
             wood: None,
+            contrast: None,
         }
     }
 }

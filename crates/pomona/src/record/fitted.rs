@@ -90,6 +90,10 @@ pub struct CandidateRecord {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(test, schemars(range(min = 0.0, max = 1.0)))]
     pub wood: Option<f64>,
+    /// By how much it stands out as wood from what lies beside it, where the colour image tells.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(test, schemars(range(min = -1.0, max = 1.0)))]
+    pub contrast: Option<f64>,
 }
 
 impl From<&FittedApple> for AppleRecord {
@@ -132,6 +136,7 @@ impl From<&BranchCandidate> for CandidateRecord {
             empty: candidate.empty_m,
             hidden: candidate.hidden_m,
             wood: candidate.wood,
+            contrast: candidate.contrast,
         }
     }
 }

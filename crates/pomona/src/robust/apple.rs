@@ -6,6 +6,7 @@ use super::sphere::{BoxRays, candidates, support};
 use super::spheroid::{
     FitSchedule, Spheroid, SpheroidFit, SpheroidPrior, SurfaceObservations, fit_spheroid,
 };
+use super::trust::Trust;
 use crate::config::{FruitConfig, RobustConfig};
 use crate::optics::{DepthNoise, DepthPatch, Projection, depth_jump_m};
 use crate::outcome::Status;
@@ -81,6 +82,7 @@ pub(crate) struct AppleSearch<'a> {
     pub(crate) fruit: &'a FruitConfig,
     pub(crate) projection: &'a Projection<'a>,
     pub(crate) noise: DepthNoise,
+    pub(crate) trust: Trust,
     pub(crate) bounds: &'a PixelBox,
     /// The pixels of the box.
     pub(crate) window: PixelWindow,
@@ -145,7 +147,7 @@ impl AppleSearch<'_> {
             x1: x0 + window.width(),
             y1: y0 + window.height(),
         }
-        .shrunk(self.config.rim_share);
+        .shrunk(self.trust.rim_share);
         let jump = |z: f32| depth_jump_m(self.noise.sigma(f64::from(z)), JUMP_SIGMAS) as f32;
         let readings = blocks.fill(patch, area, side, jump);
         let points =
@@ -169,7 +171,8 @@ impl AppleSearch<'_> {
     fn prior(&self, blocks: &Blocks) -> SpheroidPrior {
         let config = self.config;
         let mean = config.radius_mean_m.unwrap_or(self.fruit.prior_mean());
-        let radius = if config.box_radius_sd_m > 0.0 {
+        let population = config.radius_sd_m.unwrap_or(self.fruit.prior_sd());
+        let radius = if let Some(box_sd) = self.trust.box_radius_sd_m {
             let b = self.bounds;
             let side = (b.x_max - b.x_min).min(b.y_max - b.y_min);
             // Things in front are fewer than half of what a box shows; what shows of an apple lies before its centre.
@@ -180,17 +183,22 @@ impl AppleSearch<'_> {
             let radius = 0.5 * side * self.projection.pixel_m(depth);
             let tried = self.fruit.hypotheses();
             let radius = radius.clamp(tried.least, tried.most);
-            (radius, config.box_radius_sd_m)
+            // Both tell of the size: the box, and what apples are like.
+            let (by_box, by_kind) = (box_sd.powi(-2), population.powi(-2));
+            let together = by_box + by_kind;
+            (
+                (by_box * radius + by_kind * mean) / together,
+                together.powf(-0.5),
+            )
         } else {
-            let sd = config.radius_sd_m.unwrap_or(self.fruit.prior_sd());
-            (mean, sd)
+            (mean, population)
         };
         SpheroidPrior {
             radius,
             flattening: (self.config.flattening_mean, self.config.flattening_sd),
             axis: up(),
             axis_sd: self.config.stem_sd_rad,
-            shape_sd: self.config.shape_sd_m,
+            shape_sd: self.trust.shape_sd_m,
         }
     }
 
@@ -213,7 +221,7 @@ impl AppleSearch<'_> {
         let observations = SurfaceObservations {
             points: &buffers.points,
             rays: &buffers.rays,
-            ray_sd: self.config.contour_sd_px * self.pixel(&spheroid),
+            ray_sd: self.trust.contour_sd_px * self.pixel(&spheroid),
             noise: self.noise,
         };
         fit_spheroid(&observations, spheroid, prior, schedule)

@@ -49,6 +49,11 @@ impl BranchAxis {
         })
     }
 
+    /// Place along the line, of its point nearest to `point`.
+    pub(crate) fn along(&self, point: &Point3<f64>) -> f64 {
+        (point - self.base).dot(&self.along)
+    }
+
     pub(crate) fn at(&self, s: f64) -> Point3<f64> {
         let p = powers(s);
         self.base

@@ -3,7 +3,8 @@
 //! Constants that name no source were set by hand, like those of [`branch`](super::branch).
 
 use super::axis::{BranchAxis, Observation, Parabola, powers};
-use super::cross_section::{CrossSection, ObjectSection};
+use super::cross_section::{CrossSection, ObjectSection, Roundness};
+use super::section_set::SectionSet;
 
 /// Cut-offs of the robust weight for each step of a parabola's fit, standard deviations: wide first, since the
 /// hypothesis may be off by its tolerance.
@@ -58,6 +59,9 @@ const DEPTH_TOLERANCE_SDS: f64 = 3.0;
 /// What a section counts with one edge in place, the other being lost in something beside it.
 const ONE_EDGE_SHARE: f64 = 0.4;
 
+/// Distance from the foot within which the support is that at the foot, radii of the apple.
+const FOOT_STRETCH_RADII: f64 = 0.6;
+
 /// Weight of empty length in the score: a branch that is not there.
 const EMPTY_PENALTY: f64 = 1.4;
 
@@ -82,6 +86,31 @@ pub(crate) struct AxisSupport {
     pub(crate) occluded: f64,
     /// Pixels that show the branch.
     pub(crate) pixels: usize,
+    /// Of the visible length, that with both edges in place.
+    pub(crate) whole: f64,
+    /// Empty length on the side of the foot with less of it.
+    pub(crate) empty_shorter_side: f64,
+    /// Visible length about the foot, within `FOOT_STRETCH_RADII`.
+    pub(crate) visible_at_foot: f64,
+    /// Empty and atypical length there.
+    pub(crate) missing_at_foot: f64,
+    /// Sum of the squares of the relative differences of the widths from the branch's, times their lengths.
+    pub(crate) uneven: f64,
+    /// How round the visible sections are.
+    pub(crate) roundness: Roundness,
+    /// Longest stretch of the visible length without a gap.
+    pub(crate) longest: f64,
+    /// Number of such stretches.
+    pub(crate) stretches: usize,
+    /// Width of a pixel at the axis, metres.
+    pub(crate) pixel: f64,
+    /// Which of the sections are visible, the first ones of them.
+    pub(crate) visible_sections: SectionSet,
+    /// Visible length that a candidate with a better score shows as well.
+    pub(crate) shared: f64,
+    /// By how much the best score of the candidates in nearly the same direction is above its own, and of those in a
+    /// similar one.
+    pub(crate) outdone: [f64; 2],
 }
 
 impl AxisSupport {
@@ -203,7 +232,10 @@ impl AxisFit {
     ) -> AxisSupport {
         let mut support = AxisSupport::default();
         let (mut before, mut after) = (0.0, 0.0);
-        for (s, section) in sections {
+        let mut empty = (0.0, 0.0);
+        let width = 2.0 * axis.radius;
+        for (number, (s, section)) in sections.iter().enumerate() {
+            let at_foot = (s - foot).abs() < FOOT_STRETCH_RADII * self.apple_radius;
             let object = match section {
                 CrossSection::Object(object) => object,
                 CrossSection::Occluded => {
@@ -213,6 +245,14 @@ impl AxisFit {
                 CrossSection::Empty => {
                     support.empty +=
                         step / (1.0 + (s / (EMPTY_RANGE_RADII * self.apple_radius)).powi(4));
+                    *(if *s < foot {
+                        &mut empty.0
+                    } else {
+                        &mut empty.1
+                    }) += step;
+                    if at_foot {
+                        support.missing_at_foot += step;
+                    }
                     continue;
                 }
                 CrossSection::OutsideImage => continue,
@@ -220,13 +260,30 @@ impl AxisFit {
             let share = self.typical_share(axis, moved, *s, object);
             if share > 0.0 {
                 support.pixels += object.pixels;
+                support.visible_sections.insert(number);
                 *(if *s < foot { &mut before } else { &mut after }) += share * step;
+                if at_foot {
+                    support.visible_at_foot += share * step;
+                }
+                support.roundness.product += object.roundness.product;
+                support.roundness.square += object.roundness.square;
+                if object.both_edges() {
+                    support.whole += share * step;
+                    support.uneven += step * (object.width() / width - 1.0).powi(2);
+                }
             } else {
                 support.atypical += step;
+                if at_foot {
+                    support.missing_at_foot += step;
+                }
             }
         }
         support.visible = before + after;
         support.visible_shorter_side = f64::min(before, after);
+        support.empty_shorter_side = f64::min(empty.0, empty.1);
+        support.pixel = self.pixel;
+        let (stretches, longest) = support.visible_sections.stretches();
+        (support.stretches, support.longest) = (stretches, longest as f64 * step);
         support
     }
 

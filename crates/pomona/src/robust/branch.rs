@@ -61,31 +61,31 @@ const PASSES: [RefinementPass; 5] = [
         step: 0.004,
         tolerance: 0.004,
         growth: 0.10,
-        kept: 14,
+        kept: 16,
     },
     RefinementPass {
         step: 0.004,
         tolerance: 0.002,
         growth: 0.06,
-        kept: 8,
+        kept: 10,
     },
     RefinementPass {
         step: 0.003,
         tolerance: 0.001,
         growth: 0.03,
-        kept: 4,
+        kept: 6,
     },
     RefinementPass {
         step: 0.003,
         tolerance: 0.001,
         growth: 0.02,
-        kept: 4,
+        kept: 6,
     },
     RefinementPass {
         step: 0.002,
         tolerance: 0.001,
         growth: 0.02,
-        kept: 4,
+        kept: 6,
     },
 ];
 
@@ -131,7 +131,47 @@ impl Search<'_> {
         }
         ranked
             .retain(|c| c.distance > config.branch_near * r && c.distance < config.branch_far * r);
+        ranked.retain(|c| c.distance - c.axis.radius > DEEPEST_RADII * r);
+        self.compare(&mut ranked);
         ranked
+    }
+
+    /// Measures how much of each candidate's visible length one with a better score shows as well, and by how much the
+    /// scores of those beside it are above its own: leaves and spurs grow beside branches. They come best first.
+    fn compare(&self, ranked: &mut [Candidate]) {
+        let reach = self.config.branch_reach * self.apple.radius;
+        let step = PASSES[PASSES.len() - 1].step;
+        let n = (reach / step) as usize;
+        for k in 1..ranked.len() {
+            let (better, rest) = ranked.split_at_mut(k);
+            let candidate = &mut rest[0];
+            let offset = candidate.foot - self.apple.center;
+            candidate.support.outdone = BESIDE_RAD.map(|most| {
+                let beside = |c: &&Candidate| (c.foot - self.apple.center).angle(&offset) < most;
+                better
+                    .iter()
+                    .find(beside)
+                    .map_or(0.0, |c| c.score - candidate.score)
+            });
+            let mut shared = 0;
+            for number in 0..=2 * n {
+                if !candidate.support.visible_sections.contains(number) {
+                    continue;
+                }
+                let at = candidate.axis.at((number as f64 - n as f64) * step);
+                let shows = |other: &Candidate| {
+                    let along = other.axis.along(&at);
+                    let near = (at - other.axis.at(along)).norm()
+                        < SHARED_RADII * other.axis.radius + SHARED_M;
+                    let place = (along / step).round() + n as f64;
+                    near && place >= 0.0 && other.support.visible_sections.contains(place as usize)
+                };
+                if better.iter().any(shows) {
+                    shared += 1;
+                }
+            }
+            candidate.support.shared = f64::from(shared) * step;
+        }
     }
 
     /// Adds the pixels that support a candidate.
@@ -233,6 +273,20 @@ const DEPTH_TOLERANCE_SIGMAS: f64 = 3.0;
 
 /// Share of the branch's radius by which its surface may lie before or behind that of a cylinder.
 const DEPTH_TOLERANCE_RADII: f64 = 0.4;
+
+/// Least distance of a branch's surface from the apple's centre, radii of the apple: nothing passes through an apple. It
+/// is less than 1 for errors of both fits; of 3000 candidates on the tuning scenes whose foot was right to 0.15 radii,
+/// fewer than 0.3 % lie deeper.
+const DEEPEST_RADII: f64 = 0.93;
+
+/// Angles between the directions of two candidates up to which one is beside the other, radians (34° and 63°).
+const BESIDE_RAD: [f64; 2] = [0.6, 1.1];
+
+/// Distance from a candidate's axis at which a section of another one shows the same object: radii of the branch, …
+const SHARED_RADII: f64 = 1.0;
+
+/// … and metres.
+const SHARED_M: f64 = 0.002;
 
 /// Two candidates are the same branch where the cosine of the angle between their tangents exceeds this (10°) …
 const SAME_BRANCH_COS: f64 = 0.985;

@@ -31,6 +31,8 @@ pub(crate) struct ObjectSection {
     pub(crate) depth_behind_axis: f64,
     /// Pixels that show it.
     pub(crate) pixels: usize,
+    /// How round it is in depth.
+    pub(crate) roundness: Roundness,
 }
 
 impl ObjectSection {
@@ -53,6 +55,15 @@ impl ObjectSection {
             (false, false) => None,
         }
     }
+}
+
+/// Readings across an object, compared with the depth of something round and of something flat.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Roundness {
+    /// Sum of the products of the readings and of the depths of something round, each less its mean, m².
+    pub(crate) product: f64,
+    /// Sum of the squares of the latter, m².
+    pub(crate) square: f64,
 }
 
 /// How to `cross_sections`.
@@ -216,16 +227,24 @@ impl<'a> SectionLine<'a> {
         let quarter = (0.35 * f64::from(right - left)).max(0.5);
         let mut sum = Sums::default();
         let mut count = 0;
+        let (mut z_sum, mut round_sum, mut product, mut square) = (0.0, 0.0, 0.0, 0.0);
         for k in left..=right {
             let (relation, off) = self.relation(k);
             if relation != PixelRelation::OnSurface {
                 continue;
             }
             count += 1;
+            let x = f64::from(k) / self.scale;
+            // Of something round about the thing's own middle, and what was read.
+            let round = self.surface(x - centre) - self.z;
+            let z = off + self.surface(x) - self.z;
+            z_sum += z;
+            round_sum += round;
+            product += z * round;
+            square += round * round;
             if (f64::from(k) - 0.5 * f64::from(left + right)).abs() <= quarter {
                 // Against the roundness about the thing's own middle.
-                let x = f64::from(k) / self.scale;
-                sum.add(off + self.surface(x) - self.surface(x - centre));
+                sum.add(z - round);
             }
         }
         if let Some(pixels) = pixels {
@@ -244,6 +263,10 @@ impl<'a> SectionLine<'a> {
             silhouette: (left_silhouette, right_silhouette),
             depth_behind_axis: off * self.slant,
             pixels: count,
+            roundness: Roundness {
+                product: product - z_sum * round_sum / count as f64,
+                square: square - round_sum * round_sum / count as f64,
+            },
         })
     }
 

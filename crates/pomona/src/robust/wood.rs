@@ -54,6 +54,8 @@ pub(crate) struct WoodCandidate {
     pub(crate) candidate: Candidate,
     /// Probability that it is wood.
     pub(crate) wood: f64,
+    /// By how much it stands out in the image.
+    pub(crate) contrast: f64,
     /// Probability that it is the nearest wood.
     pub(crate) nearest: f64,
 }
@@ -85,21 +87,25 @@ impl WoodSearch<'_> {
         let widest = 2.0 * self.config.branch_radius_max_m / self.pixel();
         let crossings = Crossings::of(self.wood, band.window, widest);
         let lines = image_lines(&crossings, band.center, band.radius, rng);
-        let of_lines = lines.iter().filter_map(|line| {
-            let evidence = band.evidence(line)?;
-            let lifted = Lifted::new(self, &band, line, &evidence, trust)?;
-            self.candidate(&lifted, &evidence, trust)
+        let of_lines = lines.iter().flat_map(|line| {
+            let band = &band;
+            let stretches = band.evidence(line).into_iter();
+            stretches.filter_map(move |evidence| {
+                let lifted = Lifted::new(self, band, line, &evidence, trust)?;
+                let (candidate, wood) = self.candidate(&lifted, &evidence, trust)?;
+                Some((candidate, wood, evidence))
+            })
         });
         let of_depth = by_depth.iter().filter_map(|candidate| {
-            let evidence = band.evidence_at_foot(&self.image_line(&band, candidate)?)?;
+            let evidence = band.evidence_at_foot(&self.image_line(&band, candidate)?);
             let wood = evidence.probability(trust, Some(candidate.score));
-            Some((*candidate, wood))
+            Some((*candidate, wood, evidence))
         });
-        let mut found: Vec<(Candidate, f64)> = of_lines.chain(of_depth).collect();
+        let mut found: Vec<(Candidate, f64, Evidence)> = of_lines.chain(of_depth).collect();
         found.sort_by(|a, b| b.1.total_cmp(&a.1));
         let places: Vec<Place> = found
             .iter()
-            .map(|(candidate, wood)| Place {
+            .map(|(candidate, wood, _)| Place {
                 offset: candidate.foot - self.apple.center,
                 wood: *wood,
             })
@@ -113,12 +119,14 @@ impl WoodSearch<'_> {
                     ..found[k].0
                 },
                 wood: found[k].1,
+                contrast: found[k].2.contrast,
                 nearest,
             })
             .collect()
     }
 
-    /// How much depth is worth about this apple, 0 to 1: by the share of the pixels of wood with a reading.
+    /// How much depth is worth about this apple, 0 to 1: by the share of the pixels of wood with a reading, and by how
+    /// sharp the frame's depth is.
     fn trust_in_depth(&self, band: &Band<'_>) -> f64 {
         let window = band.window;
         let (mut read, mut all) = (0.0, 0.0);
@@ -136,7 +144,8 @@ impl WoodSearch<'_> {
             }
         }
         let share = if all > 0.0 { read / all } else { 0.0 };
-        ((share - UNTRUSTED_SHARE) / (TRUSTED_SHARE - UNTRUSTED_SHARE)).clamp(0.0, 1.0)
+        let by_share = (share - UNTRUSTED_SHARE) / (TRUSTED_SHARE - UNTRUSTED_SHARE);
+        by_share.clamp(0.0, 1.0) * (1.0 - self.smear)
     }
 
     /// The part of the image about the apple.

@@ -23,6 +23,8 @@ pub(crate) struct WoodSearch<'a> {
     pub(crate) bounds: &'a PixelBox,
     /// Standard deviation of a reading at the apple's depth, metres.
     pub(crate) sigma: f64,
+    /// How smeared the frame's depth is, 0 to 1.
+    pub(crate) smear: f64,
     pub(crate) config: &'a RobustConfig,
 }
 

@@ -43,6 +43,10 @@ use std::time::Instant;
 use trust::Trust;
 use wood::{WoodCandidate, WoodSearch};
 
+/// Share of the confidence that is lost where depth is smeared and no colour tells what is wood. Of 28 and 29 answers to
+/// apples of two time-of-flight frames 10 and 7 were right, at a mean confidence of 0.80 and 0.77 without this.
+const SMEARED_LOSS: f64 = 0.6;
+
 /// Radii about the centre within which branches are looked for, beside the length along them.
 const SHELL_MARGIN: f64 = 0.4;
 
@@ -152,12 +156,14 @@ fn find_branch(
     let likely = |weighed: &Weighed| likeness::probability(&weighed.features);
     let by_wood: Vec<f64> = weighed.iter().map(likely).collect();
     answer.evidence.weighed = weighed;
+    // Leaves' edges in smeared depth look like twigs.
+    let believed = 1.0 - SMEARED_LOSS * frame.depth_quality().smear();
     let by_depth = nearest::ranked(&candidates, &by_wood, &apple, config.nearest_first);
     let distinct: Vec<Candidate> = by_depth.iter().map(|c| c.candidate).collect();
     let (ranked, decided) = match frame.wood() {
         None => {
             answer.candidates = distinct.iter().map(branch_candidate).collect();
-            let decided = decide(found, &by_depth, config, answer);
+            let decided = decide(found, &by_depth, config, believed, answer);
             (distinct, decided)
         }
         Some(wood) => {
@@ -187,11 +193,13 @@ fn find_branch(
     decided
 }
 
-/// Adds the branch and, where it is sure enough, the direction.
+/// Adds the branch and, where it is sure enough, the direction. `believed` is the share of the confidence that the
+/// frame's depth deserves.
 fn decide(
     found: &SeenApple,
     ranked: &[Ranked],
     config: &RobustConfig,
+    believed: f64,
     answer: &mut AppleAnswer,
 ) -> Result<(), Status> {
     let Some(best) = ranked.first().map(|best| &best.candidate) else {
@@ -203,7 +211,7 @@ fn decide(
         .hypot(best.foot_sd)
         / best.distance.max(1e-3);
     let features = confidence::features(found, ranked, sd);
-    let confidence = features.as_ref().map_or(0.0, confidence::probability);
+    let confidence = features.as_ref().map_or(0.0, confidence::probability) * believed;
     answer.evidence.confidence_features = features;
     answer.confidence = Some(confidence);
     let foot = Position::new(best.foot);

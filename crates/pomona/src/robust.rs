@@ -43,9 +43,10 @@ use std::time::Instant;
 use trust::Trust;
 use wood::{WoodCandidate, WoodSearch};
 
-/// Share of the confidence that is lost where depth is smeared and no colour tells what is wood. Of 28 and 29 answers to
-/// apples of two time-of-flight frames 10 and 7 were right, at a mean confidence of 0.80 and 0.77 without this.
-const SMEARED_LOSS: f64 = 0.6;
+/// Share of the confidence that is lost where depth is smeared and no colour tells what is wood. The answers to
+/// apples of two time-of-flight frames whose wood a person sees have a mean confidence of 0.91 without this, and 13 of 28
+/// are right.
+const SMEARED_LOSS: f64 = 0.2;
 
 /// Radii about the centre within which branches are looked for, beside the length along them.
 const SHELL_MARGIN: f64 = 0.4;
@@ -153,11 +154,15 @@ fn find_branch(
         Weighed::new(Position::new(candidate.foot), &features)
     };
     let weighed: Vec<Weighed> = candidates.iter().map(weighed).collect();
-    let likely = |weighed: &Weighed| likeness::probability(&weighed.features);
-    let by_wood: Vec<f64> = weighed.iter().map(likely).collect();
+    let smear = frame.depth_quality().smear();
+    let by_wood: Vec<f64> = weighed
+        .iter()
+        .zip(&candidates)
+        .map(|(weighed, c)| likeness::probability(&weighed.features, c.score, smear))
+        .collect();
     answer.evidence.weighed = weighed;
     // Leaves' edges in smeared depth look like twigs.
-    let believed = 1.0 - SMEARED_LOSS * frame.depth_quality().smear();
+    let believed = 1.0 - SMEARED_LOSS * smear;
     let by_depth = nearest::ranked(&candidates, &by_wood, &apple, config.nearest_first);
     let distinct: Vec<Candidate> = by_depth.iter().map(|c| c.candidate).collect();
     let (ranked, decided) = match frame.wood() {

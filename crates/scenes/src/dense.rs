@@ -197,13 +197,7 @@ impl Hedge {
 
     fn apple(&mut self) -> Apple {
         let radius = self.drawn(self.dense.apple_radius);
-        Apple {
-            flattening: self.tree.between(0.0..0.14),
-            stem_cavity: self.tree.between(0.12..0.30),
-            calyx_cavity: self.tree.between(0.0..0.12),
-            variety: Variety::Red,
-            ..Apple::sphere(Point3::origin(), radius)
-        }
+        self.tree.apple(radius, Variety::Red)
     }
 
     /// The middle apple's branch, more often above it than below, and the apple on it.

@@ -1,6 +1,6 @@
 //! Apples, spurs, leaves and shoots added to branches, in a level frame (x right, y down, z away).
 
-use crate::apple::Apple;
+use crate::apple::{Apple, Variety};
 use crate::curve::Curve;
 use crate::leaf::Leaf;
 use crate::random::Normal;
@@ -39,6 +39,17 @@ impl Grower {
     }
 
     /// Three independent standard normal numbers: no direction is preferred.
+    /// An apple at the origin, flattened and with cavities as apples differ.
+    pub(crate) fn apple(&mut self, radius: f64, variety: Variety) -> Apple {
+        Apple {
+            flattening: self.between(0.0..0.14),
+            stem_cavity: self.between(0.12..0.30),
+            calyx_cavity: self.between(0.0..0.12),
+            variety,
+            ..Apple::sphere(Point3::origin(), radius)
+        }
+    }
+
     pub(crate) fn isotropic(&mut self) -> Vector3<f64> {
         let mut normal = Normal::default();
         Vector3::from_fn(|_, _| normal.draw(&mut self.rng))

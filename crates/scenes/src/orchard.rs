@@ -138,13 +138,7 @@ impl Layout {
         ];
         let variety = varieties[self.tree.rng.random_range(0..varieties.len())];
         let radius = self.drawn(self.orchard.apple_radius);
-        Apple {
-            flattening: self.tree.between(0.0..0.14),
-            stem_cavity: self.tree.between(0.12..0.30),
-            calyx_cavity: self.tree.between(0.0..0.12),
-            variety,
-            ..Apple::sphere(Point3::origin(), radius)
-        }
+        self.tree.apple(radius, variety)
     }
 
     /// The target's branch, and the target on it: the apple at the origin, the

@@ -1,7 +1,7 @@
 """The probability that a branch seen in colour is wood, fitted to strokes drawn by eye.
 
 Reads the candidates in the `picks.json` of frames that `photographs_as_frames.py` made, and fits a logistic function of
-their contrast and of lying in front of the apple (`crates/pomona/src/robust/wood/evidence.rs`). A candidate is wood where
+their contrast (`crates/pomona/src/robust/wood/evidence.rs`). A candidate is wood where
 its foot lies within three pixels, or an eighth of the apple's radius, of a stroke. Prints the log loss over photographs
 left out, what further figures would add, and how often the answer of largest probability is right. With --second, how
 often two people agree: the direction to the wood that each drew nearest to an apple.
@@ -140,7 +140,7 @@ def report(apples):
         loss = -np.mean(np.log(np.where(y > 0, p, 1 - p)))
         weights = ", ".join(f"{w:.2f}" for w in fit(x, y))
         print(f"{' + '.join(kinds[:count])}: log loss {loss:.4f}; weights {weights}")
-        if count == 2:
+        if count == 1:
             chosen = p
     start, rows = 0, []
     for _, seen, angle, found in apples:

@@ -26,8 +26,8 @@ pub struct DepthQuality {
     pub smeared_share: Option<f64>,
 }
 
-/// Rows that are looked at, at most: enough for a per cent of every estimate.
-const MOST_ROWS: usize = 256;
+/// Rows that are looked at, at most: enough for a few per cent of every estimate.
+const MOST_ROWS: usize = 96;
 
 /// Distances between the readings that are compared, pixels: neighbours, and across what a coarser grid shares.
 const NEAR_PX: usize = 1;
@@ -59,8 +59,8 @@ const SHARP: f64 = 0.45;
 const SMEARED: f64 = 0.75;
 
 impl DepthQuality {
-    /// That of `depth`, whose readings are multiples of `depth_scale` metres. Takes some milliseconds: at most 256 rows
-    /// are looked at.
+    /// That of `depth`, whose readings are multiples of `depth_scale` metres. At most 96 rows are looked
+    /// at.
     pub fn of(depth: &DepthImage, depth_scale: f64) -> Self {
         let read = depth.readings.iter().filter(|r| **r != 0).count();
         let readings_share = read as f64 / depth.readings.len().max(1) as f64;

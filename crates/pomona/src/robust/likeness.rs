@@ -120,10 +120,23 @@ pub(crate) fn features(candidate: &Candidate, apple: &Sphere, sigma: f64) -> [f6
     ]
 }
 
-/// Probability that the candidate is wood.
-pub(crate) fn probability(features: &[f64; N]) -> f64 {
+/// Score at which a candidate in smeared depth is as likely wood as not, and how steeply that changes with the score.
+///
+/// The model above was fitted to sharp depth, and what it has learned of edges and roundness does not hold in smeared depth.
+/// Chosen on two time-of-flight frames, where 13 of 28 answers are right with it, and 7 of 29 with the model alone.
+const SMEARED_EVEN_SCORE: f64 = 0.0;
+const SMEARED_SLOPE: f64 = 15.0;
+
+/// Probability that a candidate with these features and this score is wood, in depth that is smeared from 0, not at
+/// all, to 1.
+pub(crate) fn probability(features: &[f64; N], score: f64, smear: f64) -> f64 {
     let sum: f64 = features.iter().zip(WOOD_MODEL).map(|(f, m)| f * m).sum();
-    1.0 / (1.0 + (-sum).exp())
+    let by_score = SMEARED_SLOPE * (score - SMEARED_EVEN_SCORE);
+    (1.0 - smear) * logistic(sum) + smear * logistic(by_score)
+}
+
+fn logistic(log_odds: f64) -> f64 {
+    1.0 / (1.0 + (-log_odds).exp())
 }
 
 #[cfg(test)]
@@ -165,7 +178,7 @@ mod tests {
             foot_sd: 0.0005,
             rms: 0.0006,
         };
-        probability(&features(&candidate, &APPLE, 0.0015))
+        probability(&features(&candidate, &APPLE, 0.0015), candidate.score, 0.0)
     }
 
     #[test]

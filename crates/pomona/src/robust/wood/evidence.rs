@@ -39,8 +39,11 @@ const PIECE_RADII: f64 = 1.2;
 /// Contrast from which a place of a line shows as wood.
 const SHOWS: f64 = 0.12;
 
+/// Share of its greatest contrast with which a stretch ends: masks fade out along stalks and leaves' edges.
+const END_SHARE: f64 = 0.6;
+
 /// What a stretch bridges of what does not show, radii of the apple.
-const BRIDGE_RADII: f64 = 0.25;
+const BRIDGE_RADII: f64 = 0.4;
 
 /// Shortest stretch that is a candidate: radii of the apple, and pixels.
 const LEAST_STRETCH_RADII: f64 = 0.3;
@@ -58,19 +61,16 @@ const FLANK_PX: f64 = 2.0;
 
 /// Log odds that a candidate is wood where depth is not to be trusted: constant, …
 ///
-/// These three were fitted by `crates/segment/training/fit_wood.py` to 1503 candidates about 300 apples in 25 photographs
+/// These two were fitted by `crates/segment/training/fit_wood.py` to 1358 candidates about 300 apples in 25 photographs
 /// on which the segmenter was not trained, whose wood was drawn by eye. Other figures (length, width, distance from the
-/// apple, the square of the contrast) tell little more: the log loss over photographs left out goes from 0.568 to 0.553.
-const ODDS: f64 = -1.96;
+/// apple, the square of the contrast) tell little more: the log loss over photographs left out goes from 0.514 to 0.504.
+const ODDS: f64 = -2.13;
 
-/// … for each unit of contrast, …
-const ODDS_CONTRAST: f64 = 6.08;
+/// … and for each unit of contrast.
+const ODDS_CONTRAST: f64 = 6.31;
 
-/// … and in front of the apple, where hardly any wood is and stalk and calyx are.
-const ODDS_IN_FRONT: f64 = -0.59;
-
-/// Where depth is to be trusted, by hand on the tuning scenes: for each unit by which the score of an axis that depth has found exceeds a least one,
-/// …
+/// Where depth is to be trusted, by hand on the tuning scenes: for each unit by which the score of an axis that depth has
+/// found exceeds a least one, …
 const ODDS_DEPTH_SCORE: f64 = 6.0;
 const LEAST_DEPTH_SCORE: f64 = 0.5;
 
@@ -90,11 +90,6 @@ impl Evidence {
     /// Probability that it is wood, where depth is worth `trust`; `depth_score` is the score of its axis by depth, where
     /// depth has found it.
     pub(crate) fn probability(&self, trust: f64, depth_score: Option<f64>) -> f64 {
-        let in_front = if self.distance < IN_FRONT_RADII {
-            ODDS_IN_FRONT
-        } else {
-            0.0
-        };
         let by_depth = depth_score.map_or(ODDS_NOT_IN_DEPTH, |score| {
             ODDS_DEPTH_SCORE * (score - LEAST_DEPTH_SCORE) + ODDS_BOTH * self.contrast
         });
@@ -103,13 +98,14 @@ impl Evidence {
         } else {
             ODDS_NOT_SHOWN
         };
-        let by_color = ODDS_CONTRAST * self.contrast + in_front;
-        let odds = ODDS + by_color + trust * by_depth + (1.0 - trust) * not_shown;
+        let by_color = ODDS + ODDS_CONTRAST * self.contrast;
+        let odds = by_color + trust * by_depth + (1.0 - trust) * not_shown;
         1.0 / (1.0 + (-odds).exp())
     }
 }
 
-/// The stretches of a profile that show, those less than `bridge` places apart as one.
+/// The stretches of a profile that show, those less than `bridge` places apart as one, each as far as it shows
+/// [`END_SHARE`] of its greatest contrast.
 fn stretches(profile: &[f64], bridge: usize) -> impl Iterator<Item = Range<usize>> {
     let mut found: Vec<Range<usize>> = Vec::new();
     for (k, _) in profile.iter().enumerate().filter(|(_, c)| **c >= SHOWS) {
@@ -118,7 +114,14 @@ fn stretches(profile: &[f64], bridge: usize) -> impl Iterator<Item = Range<usize
             _ => found.push(k..k + 1),
         }
     }
-    found.into_iter()
+    found.into_iter().map(|stretch| {
+        let places = &profile[stretch.clone()];
+        let most = places.iter().copied().fold(0.0, f64::max);
+        let ends = |c: &f64| *c >= END_SHARE * most;
+        let first = places.iter().position(ends).unwrap_or(0);
+        let last = places.iter().rposition(ends).unwrap_or(0);
+        stretch.start + first..stretch.start + last + 1
+    })
 }
 
 impl Band<'_> {

@@ -2,7 +2,7 @@ use crate::summary::plural;
 use crate::terminal;
 use anyhow::{anyhow, bail};
 use clap::{Args, ValueEnum};
-use pomona_cloud::{CloudFormat, Frame, PointCloud};
+use pomona_cloud::{BoxChoice, BoxSource, CloudFormat, Frame, PointCloud};
 use std::path::{Path, PathBuf};
 
 const EXAMPLES: &str = "\
@@ -76,7 +76,11 @@ pub(crate) fn run(arguments: &ConvertArguments) -> anyhow::Result<()> {
         bail!("{}: is a folder; name a file", output.display());
     }
     let mut cloud = if input.is_dir() {
-        PointCloud::from_frame(&Frame::read(input)?)?
+        PointCloud::from_frame(&Frame::read_with(
+            input,
+            &BoxSource::Nowhere,
+            &BoxChoice::default(),
+        )?)?
     } else {
         PointCloud::read(input)?
     };

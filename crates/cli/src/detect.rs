@@ -115,7 +115,7 @@ impl Job<'_> {
         let mut records = Vec::new();
         for image in self.images {
             bar.set_message(image.name.clone());
-            records.push(detect(arguments, image, self.detector, &output)?);
+            records.push(detect(arguments, image, self.detector, &output, terminal)?);
             bar.inc(1);
         }
         bar.finish_and_clear();
@@ -141,9 +141,13 @@ fn detect(
     image: &NamedImage,
     detector: &dyn Detector,
     output: &Staging<'_>,
+    terminal: Terminal,
 ) -> anyhow::Result<ImageRecord> {
     let reading = Instant::now();
     let pixels = ColorImage::read(&image.path)?;
+    if let Some(warning) = ColorImage::turned_by_exif(&image.path)? {
+        terminal.warn(&image.name, &warning);
+    }
     let read = milliseconds(reading);
     let detecting = Instant::now();
     let found = detector

@@ -1,5 +1,6 @@
 use crate::terminal::Terminal;
 use clap::Args;
+use pomona_cloud::BoxChoice;
 use pomona_detect::{
     ClassChoice, DetectError, Detector, DetectorOptions, RuntimeChoice, RuntimeReport, TilingChoice,
 };
@@ -15,12 +16,14 @@ const HEADING: &str = "Detector";
 #[derive(Clone, Debug, Args)]
 pub(crate) struct DetectorArguments {
     /// Detection model (ONNX; MODEL.toml beside it may describe it), or `built-in`.
-    #[arg(long, value_name = "FILE", default_value = BUILT_IN, value_parser = parse_model, help_heading = HEADING)]
-    model: Model,
-    /// Which of the model's classes is an apple, by name or number. Default: from the model's description, else 0.
+    /// Default: built-in.
+    #[arg(long, value_name = "FILE", value_parser = parse_model, help_heading = HEADING)]
+    model: Option<Model>,
+    /// Which class is an apple, by name or number, of the model or of a box file. Default: from the model's
+    /// description, else what is an apple by its name.
     #[arg(long, value_name = "NAME|N", value_parser = parse_class, help_heading = HEADING)]
     class: Option<ClassChoice>,
-    /// Lowest score of a box, 0 to 1. Default: by the model's description, else 0.25.
+    /// Lowest score of a box, 0 to 1. Default: by the model's description, else 0.25; 0 for boxes of a file.
     #[arg(long, value_name = "SCORE", value_parser = parse_share, help_heading = HEADING)]
     threshold: Option<f64>,
     #[command(flatten)]
@@ -61,8 +64,38 @@ impl DetectorArguments {
     /// Opens the detector.
     pub(crate) fn open(&self) -> Result<Box<dyn Detector>, DetectError> {
         self.settings
-            .options(&self.model, self.class.clone(), self.threshold)
+            .options(self.model(), self.class.clone(), self.threshold)
             .open()
+    }
+
+    fn model(&self) -> &Model {
+        self.model.as_ref().unwrap_or(&Model::BuiltIn)
+    }
+
+    /// Which boxes of a file are taken where no detector runs.
+    pub(crate) fn box_choice(&self) -> BoxChoice {
+        BoxChoice::default().with(|choice| {
+            choice.class.clone_from(&self.class);
+            choice.min_score = self.threshold.unwrap_or(0.0);
+        })
+    }
+
+    /// An option that was given and says nothing where no detector runs; `--runtime` is none where a segmenter does.
+    pub(crate) fn of_detector_alone(&self, segmenter_runs: bool) -> Option<&'static str> {
+        let default = DetectorSettings::default();
+        let given = [
+            (self.model.is_some(), "--model"),
+            (self.settings.nms_iou.is_some(), "--nms-iou"),
+            (self.settings.tiles != default.tiles, "--tiles"),
+            (
+                !segmenter_runs && self.settings.runtime != default.runtime,
+                "--runtime",
+            ),
+        ];
+        given
+            .into_iter()
+            .find(|(is_given, _)| *is_given)
+            .map(|(_, name)| name)
     }
 }
 
@@ -185,13 +218,11 @@ mod tests {
 
     fn options(arguments: &[&str]) -> Result<DetectorOptions, String> {
         let line = Line::try_parse_from([&["x"], arguments].concat()).map_err(|e| e.to_string())?;
-        let DetectorArguments {
-            model,
-            class,
-            threshold,
-            settings,
-        } = line.detector;
-        Ok(settings.options(&model, class, threshold))
+        let detector = line.detector;
+        let (class, threshold) = (detector.class.clone(), detector.threshold);
+        Ok(detector
+            .settings
+            .options(detector.model(), class, threshold))
     }
 
     #[test]

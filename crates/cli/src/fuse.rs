@@ -3,7 +3,7 @@ use crate::summary::plural;
 use crate::terminal::{self, FAINT, GOOD, HEADING, REFUSED, Terminal, one_line};
 use anyhow::{anyhow, bail};
 use pomona::{FrameAnswer, RobotFromCamera};
-use pomona_cloud::{CloudFormat, Frame};
+use pomona_cloud::{BoxChoice, BoxSource, CloudFormat, Frame};
 use pomona_fusion::{
     DirectionUse, FusedApple, FusedCloud, FusedRecord, FusedStatus, FusedTree, FusionConfig,
     PosedAnswer,
@@ -50,11 +50,18 @@ pub(crate) fn claim(frames: &[PathBuf], out: &Path) -> anyhow::Result<OutputFold
         }
         seen.push((full, frame));
     }
-    let record = RecordFile {
-        name: FUSED,
-        schema: "pomona.fused/",
-    };
-    OutputFolder::claim(out, &[record], |name| name == CLOUD)
+    OutputFolder::claim(out, &[RECORD], |name| name == CLOUD)
+}
+
+/// What says that a fused cloud beside it is ours.
+const RECORD: RecordFile<'static> = RecordFile {
+    name: FUSED,
+    schema: "pomona.fused/",
+};
+
+/// Removes the fused answers of an earlier run, which are not of the frames that this one answered.
+pub(crate) fn remove_earlier(out: &Path) -> anyhow::Result<()> {
+    OutputFolder::remove_earlier(out, RECORD, |name| name == CLOUD)
 }
 
 /// The poses of the frames' cameras, all in one frame of the robot.
@@ -116,7 +123,8 @@ impl Task<'_> {
         if self.cloud {
             let mut fused = FusedCloud::new(config.voxel_m);
             for (input, fused_frame) in self.frames.iter().zip(&tree.frames) {
-                let frame = Frame::read(input.folder)?;
+                let frame =
+                    Frame::read_with(input.folder, &BoxSource::Nowhere, &BoxChoice::default())?;
                 fused.add(&frame, input.pose, &fused_frame.correction)?;
             }
             fused

@@ -60,6 +60,31 @@ impl OutputFolder {
         })
     }
 
+    /// Removes what an earlier run left in `folder` if its record is there, such as one that this run does not write.
+    pub(crate) fn remove_earlier(
+        folder: &Path,
+        record: RecordFile<'_>,
+        writes: impl Fn(&str) -> bool,
+    ) -> anyhow::Result<()> {
+        if !record.is_in(folder) {
+            return Ok(());
+        }
+        let refused = |name: &str, e: &io::Error| {
+            anyhow!(
+                "{}: cannot be removed: {e}; remove it",
+                folder.join(name).display()
+            )
+        };
+        // The record last: it is what says that the rest is ours.
+        let others = names(folder).map_err(|e| refused("", &e))?;
+        let others = others.iter().map(String::as_str);
+        let others = others.filter(|name| *name != record.name && writes(name));
+        for name in others.chain([record.name]) {
+            fs::remove_file(folder.join(name)).map_err(|e| refused(name, &e))?;
+        }
+        Ok(())
+    }
+
     /// Claims the names `written` for a command whose `record` lists the files of its run, `earlier`.
     pub(crate) fn claim_listed(
         folder: &Path,

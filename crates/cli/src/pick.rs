@@ -11,6 +11,7 @@ use crate::progress;
 use crate::summary::{Summary, plural};
 use crate::table::table;
 use crate::terminal::{self, Terminal};
+use crate::wood::SegmenterChoice;
 use anyhow::bail;
 pub(crate) use arguments::PickArguments;
 pub(crate) use files::PICKS;
@@ -31,6 +32,7 @@ pub(crate) fn run(arguments: &PickArguments, terminal: Terminal) -> anyhow::Resu
         .then(|| fuse::claim(&arguments.frames, &arguments.out))
         .transpose()?;
     let jobs = jobs(&arguments.frames, &arguments.out, arguments.of_one_frame())?;
+    check_detector_options(arguments, &jobs, terminal)?;
     let poses = poses(arguments, &session, &jobs)?;
 
     let answers = answer_all(arguments, &session, &jobs, &poses, terminal)?;
@@ -39,6 +41,13 @@ pub(crate) fn run(arguments: &PickArguments, terminal: Terminal) -> anyhow::Resu
         fuse_all(
             arguments, &session, &jobs, &poses, &answers, output, terminal,
         )?;
+    }
+    // What stands there of an earlier run would be taken for an answer of this one.
+    if !arguments.fuse || failed > 0 {
+        fuse::remove_earlier(&arguments.out)?;
+    }
+    if jobs.len() > 1 {
+        files::remove_earlier(&arguments.out)?;
     }
     print_result(arguments, &answers)?;
     if failed > 0 {
@@ -51,6 +60,35 @@ pub(crate) fn run(arguments: &PickArguments, terminal: Terminal) -> anyhow::Resu
             "{failed} of {}{consequence} failed, for the reasons above",
             plural(jobs.len(), "frame"),
         );
+    }
+    Ok(())
+}
+
+/// Refuses options of the detector where every frame has boxes, and says for which frames they mean nothing.
+fn check_detector_options(
+    arguments: &PickArguments,
+    jobs: &[Job],
+    terminal: Terminal,
+) -> anyhow::Result<()> {
+    let segmenter_runs = arguments.segmenter != SegmenterChoice::None;
+    let Some(option) = arguments.detector.of_detector_alone(segmenter_runs) else {
+        return Ok(());
+    };
+    let with_boxes: Vec<&Job> = jobs
+        .iter()
+        .filter(|job| arguments.has_boxes(&job.frame))
+        .collect();
+    if with_boxes.len() == jobs.len() {
+        bail!(
+            "{option} is for the detector, which does not run where boxes are given; leave {option} out, or add \
+             --detect and no --boxes to detect the apples"
+        );
+    }
+    for job in with_boxes {
+        terminal.note(&format!(
+            "{}: its own boxes are taken, without {option}; --detect runs the detector for it too",
+            job.frame.display()
+        ));
     }
     Ok(())
 }

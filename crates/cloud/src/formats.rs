@@ -1,3 +1,4 @@
+mod channels;
 mod claim;
 mod pcd;
 mod ply;
@@ -86,8 +87,11 @@ impl PointCloud {
 fn parse(bytes: &[u8], by_extension: Option<CloudFormat>) -> Result<PointCloud, Malformed> {
     let starts_with_line = |word: &[u8]| {
         bytes
-            .strip_prefix(word)
-            .is_some_and(|rest| rest.first().is_some_and(u8::is_ascii_whitespace))
+            .split_at_checked(word.len())
+            .is_some_and(|(start, rest)| {
+                start.eq_ignore_ascii_case(word)
+                    && rest.first().is_some_and(u8::is_ascii_whitespace)
+            })
     };
     if bytes.is_empty() {
         return Err(Malformed::new(

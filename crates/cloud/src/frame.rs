@@ -2,7 +2,8 @@ mod points;
 
 use crate::boxes::validate_all;
 use crate::{
-    BoxFormat, Camera, CloudError, ColorImage, DepthImage, PixelBox, read_boxes, write_boxes,
+    BoxChoice, BoxFormat, BoxImage, Camera, CloudError, ColorImage, DepthImage, PixelBox,
+    read_boxes, write_boxes,
 };
 use pomona_files::{FileError, Malformed, Warning, temporary_beside};
 use std::fs;
@@ -24,6 +25,19 @@ pub struct Frame {
     pub boxes: Option<Vec<PixelBox>>,
     /// What was assumed about its files, or is doubtful about them, when it was read.
     pub warnings: Vec<Warning>,
+}
+
+/// Where the boxes of a frame are read from.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum BoxSource {
+    /// The box file in its folder, where there is one.
+    #[default]
+    Own,
+    /// This file.
+    File(PathBuf),
+    /// Nowhere: the frame has no boxes, whatever lies in its folder.
+    Nowhere,
 }
 
 const CAMERA: &[&str] = &[
@@ -65,16 +79,32 @@ impl Frame {
     /// `camera.yaml`, `camera_info.yaml`, or Open3D's `intrinsic.json`), and
     /// `boxes.xml`, `.json` or `.txt` where there is one. Of several names the first is read.
     ///
+    /// Of a box file with several classes the apples are taken, as [`BoxChoice`] has it by default.
+    ///
     /// # Errors
     ///
     /// [`CloudError::MissingFile`], [`CloudError::SizeMismatch`], [`CloudError::Box`], and
     /// the errors of reading each file.
     pub fn read(dir: impl AsRef<Path>) -> Result<Self, CloudError> {
+        Self::read_with(dir, &BoxSource::Own, &BoxChoice::default())
+    }
+
+    /// Reads a frame's folder with the boxes that `choice` takes from `boxes`.
+    ///
+    /// # Errors
+    ///
+    /// As [`Frame::read`].
+    pub fn read_with(
+        dir: impl AsRef<Path>,
+        boxes: &BoxSource,
+        choice: &BoxChoice,
+    ) -> Result<Self, CloudError> {
         let dir = dir.as_ref();
         if let Err(source) = fs::read_dir(dir) {
             return Err(FileError::read(dir, source).into());
         }
-        let color = ColorImage::read(required(dir, &Self::COLOR_FILES, "color.png or color.jpg")?)?;
+        let color_file = required(dir, &Self::COLOR_FILES, "color.png or color.jpg")?;
+        let color = ColorImage::read(&color_file)?;
         let depth = DepthImage::read(required(dir, &["depth.png"], "depth.png")?)?;
         let camera = Camera::read_with_warnings(required(
             dir,
@@ -84,8 +114,18 @@ impl Frame {
         let mut frame = Self::new(folder_name(dir), camera.value, color, depth);
         frame.warnings = camera.warnings;
         frame.validate_as(dir)?;
-        if let Some(path) = present(dir, &Self::BOX_FILES) {
-            frame.boxes = Some(read_boxes(path, frame.color.width, frame.color.height)?);
+        frame
+            .warnings
+            .extend(ColorImage::turned_by_exif(&color_file)?);
+        let path = match boxes {
+            BoxSource::Own => present(dir, &Self::BOX_FILES),
+            BoxSource::File(path) => Some(path.clone()),
+            BoxSource::Nowhere => None,
+        };
+        if let Some(path) = path {
+            let image = BoxImage::new(frame.color.width, frame.color.height).at(color_file);
+            let boxes = read_boxes(path, &image, choice)?;
+            frame.boxes = Some(boxes.append_to(&mut frame.warnings));
         }
         Ok(frame)
     }

@@ -3,6 +3,7 @@
 mod claim;
 mod color;
 mod depth;
+mod exif;
 mod gray;
 mod jpeg;
 mod png;

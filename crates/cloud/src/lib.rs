@@ -48,7 +48,8 @@
 //! A [`Frame`] is a colour image, a depth image registered to it, their common [`Camera`], and optionally the
 //! bounding boxes of the apples. Its folder contains `color.png` (or `.jpg`), `depth.png` (16-bit grey),
 //! `camera.json` (or a ROS `CameraInfo` in YAML, or Open3D's `intrinsic.json`), and `boxes.xml`, `.json` or `.txt`
-//! (VOC, COCO, YOLO). [`read_tum`] reads folders of the TUM RGB-D benchmark. A [`CocoDataset`] has the boxes of many
+//! (VOC, COCO, YOLO and others, see [`read_boxes`]). Of the classes and images in a box file a [`BoxChoice`] and a
+//! [`BoxImage`] take those that are meant. [`read_tum`] reads folders of the TUM RGB-D benchmark. A [`CocoDataset`] has the boxes of many
 //! images in one file; a [`LabelledBox`] is a box with its class.
 //!
 //! Lengths are in metres, in the REP-103 optical camera frame: x right, y down, z forward.
@@ -93,8 +94,9 @@ mod tum;
 mod window;
 
 pub use boxes::{
-    BoxError, BoxFormat, CocoCategory, CocoDataset, CocoImage, CocoResult, ImageKey, LabelKind,
-    LabelledBox, PixelBox, read_boxes, read_coco_results, read_labels, write_boxes,
+    BoxChoice, BoxError, BoxFormat, BoxImage, ClassChoice, CocoCategory, CocoDataset, CocoImage,
+    CocoResult, ImageKey, LabelKind, LabelledBox, PixelBox, read_boxes, read_coco_results,
+    read_labels, write_boxes,
 };
 pub use camera::{Camera, CameraError, Distortion, Lens};
 pub use cloud::PointCloud;
@@ -102,7 +104,7 @@ pub use color::ColorImage;
 pub use depth::DepthImage;
 pub use error::CloudError;
 pub use formats::CloudFormat;
-pub use frame::Frame;
+pub use frame::{BoxSource, Frame};
 pub use gray::GrayImage;
 pub use points::DepthPoints;
 pub use pomona_files::{FileError, Warning, WarningCode, WithWarnings};

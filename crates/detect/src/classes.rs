@@ -1,16 +1,5 @@
+use pomona_cloud::ClassChoice;
 use pomona_network::{Malformed, nearest};
-use serde::Deserialize;
-
-/// Which of the model's classes is an apple.
-#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
-#[serde(untagged, expecting = "expected a class's name or number")]
-pub enum ClassChoice {
-    /// By its number.
-    Number(usize),
-    /// By its name in the description beside the model or in the model's own metadata, or among COCO's where a
-    /// model of 80 classes has no names.
-    Name(String),
-}
 
 /// What the classes are called where 80 of them have no names: those of COCO, on which public models are trained, in
 /// its order (Lin et al., Microsoft COCO, 2014).
@@ -97,18 +86,29 @@ const COCO: [&str; 80] = [
     "toothbrush",
 ];
 
-/// The class that counts where nobody says which.
-const APPLE: &str = "apple";
+/// Which classes count, and what was assumed to say so.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Chosen {
+    /// Their numbers: several where several are apples by their names, such as ripe and unripe ones.
+    pub(crate) classes: Vec<usize>,
+    /// Their names, where they have any.
+    pub(crate) names: Vec<String>,
+    /// Whether neither a choice nor a name says that it is this one.
+    pub(crate) is_guess: bool,
+    /// What was assumed.
+    pub(crate) note: Option<String>,
+}
 
-/// The number of the class that counts.
+/// Which classes count.
 ///
 /// `names` are those of the description, `count` is how many classes the model has, as far as its outputs tell.
-/// Without a choice it is the class named `apple`, else the first.
+/// Without a choice they are those that are apples by their names, and the only one where there is one. Where they have
+/// no names it is the first.
 pub(crate) fn choose(
     choice: Option<&ClassChoice>,
     names: Option<&[String]>,
     count: Option<usize>,
-) -> Result<usize, Malformed> {
+) -> Result<Chosen, Malformed> {
     let names: Vec<&str> = match (names, count) {
         (Some(names), _) => names.iter().map(String::as_str).collect(),
         (None, Some(count)) if count == COCO.len() => COCO.to_vec(),
@@ -123,38 +123,92 @@ pub(crate) fn choose(
             "name every class of the model, in its order",
         ));
     }
-    let find = |wanted: &str| {
-        let exact = names.iter().position(|name| *name == wanted);
-        exact.or_else(|| {
-            names
-                .iter()
-                .position(|name| name.eq_ignore_ascii_case(wanted))
-        })
-    };
     match choice {
-        None => Ok(find(APPLE).unwrap_or(0)),
+        None => by_default(&names, count),
         Some(ClassChoice::Number(number)) => {
             let count = count.or((!names.is_empty()).then_some(names.len()));
             check(*number, count)?;
-            Ok(*number)
+            Ok(those(vec![*number], &names))
         }
-        Some(ClassChoice::Name(name)) => find(name).ok_or_else(|| {
-            let place = format!("class `{name}`");
-            if names.is_empty() {
-                Malformed::new(
-                    place,
-                    "the model's classes have no names here",
-                    "give the class's number, or list `classes` in the description beside the model",
-                )
-            } else {
-                Malformed::new(
-                    place,
-                    format!("none of the {} classes has this name", names.len()),
-                    format!("the nearest are {}", nearest(name, &names)),
-                )
+        Some(ClassChoice::Name(name)) => {
+            let found = ClassChoice::named(name, &names);
+            if found.is_empty() {
+                return Err(unknown(name, &names));
             }
-        }),
+            Ok(those(found, &names))
+        }
     }
+}
+
+fn those(classes: Vec<usize>, names: &[&str]) -> Chosen {
+    let own = classes.iter().filter_map(|&class| names.get(class));
+    Chosen {
+        names: own.map(ToString::to_string).collect(),
+        classes,
+        ..Chosen::default()
+    }
+}
+
+fn by_default(names: &[&str], count: Option<usize>) -> Result<Chosen, Malformed> {
+    const APPLE: &str = ClassChoice::DEFAULT_NAME;
+    let found = ClassChoice::named(APPLE, names);
+    if !found.is_empty() {
+        let mut chosen = those(found, names);
+        if chosen
+            .names
+            .iter()
+            .any(|name| !name.eq_ignore_ascii_case(APPLE))
+        {
+            chosen.note = Some(format!("{} taken for apples", listed(&chosen.names)));
+        }
+        return Ok(chosen);
+    }
+    let mut first = those(vec![0], names);
+    match (names, count) {
+        ([], Some(1)) => {}
+        ([], _) => {
+            let of = count.map_or_else(String::new, |count| format!(" of {count}"));
+            first.is_guess = true;
+            first.note = Some(format!(
+                "the model does not name its classes: class 0{of} is taken for apples; state another by --class, or \
+                 `classes` in the description beside it"
+            ));
+        }
+        ([only], _) => first.note = Some(format!("its only class, `{only}`, is taken for apples")),
+        _ => return Err(unknown(APPLE, names)),
+    }
+    Ok(first)
+}
+
+/// Classes as the subject of a sentence.
+fn listed(names: &[String]) -> String {
+    let quoted: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
+    match &*quoted {
+        [one] => format!("class {one} is"),
+        several => format!("classes {} are", several.join(", ")),
+    }
+}
+
+/// How many names a message lists.
+const SHOWN: usize = 10;
+
+fn unknown(name: &str, names: &[&str]) -> Malformed {
+    let place = format!("class `{name}`");
+    if names.is_empty() {
+        return Malformed::new(
+            place,
+            "the model's classes have no names here",
+            "give the class's number, or list `classes` in the description beside the model",
+        );
+    }
+    let problem = format!("none of the {} classes has this name", names.len());
+    let remedy = if names.len() > SHOWN {
+        format!("the nearest are {}", nearest(name, names))
+    } else {
+        let all: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
+        format!("say by --class which of {} is an apple", all.join(", "))
+    };
+    Malformed::new(place, problem, remedy)
 }
 
 /// The names that an exporter wrote into the model under `names`, as Ultralytics' does: `{0: 'leaf', 1: 'apple'}`,
@@ -198,21 +252,65 @@ mod tests {
         ClassChoice::Name(name.to_owned())
     }
 
+    fn chosen(choice: Option<&ClassChoice>, names: &[&str], count: Option<usize>) -> Chosen {
+        let names: Vec<String> = names.iter().map(ToString::to_string).collect();
+        choose(choice, (!names.is_empty()).then_some(&*names), count).unwrap()
+    }
+
     #[test]
     fn by_name_by_number_or_the_apple() {
-        let names = ["leaf".to_owned(), "Apple".to_owned()];
-        assert_eq!(choose(None, Some(&names), Some(2)), Ok(1));
-        assert_eq!(choose(Some(&name("leaf")), Some(&names), Some(2)), Ok(0));
-        assert_eq!(choose(Some(&name("apple")), Some(&names), None), Ok(1));
+        let numbers = |choice: Option<&ClassChoice>, names: &[&str], count| {
+            chosen(choice, names, count).classes
+        };
+        let names = ["leaf", "Apple"];
+        assert_eq!(numbers(None, &names, Some(2)), [1]);
+        assert_eq!(numbers(Some(&name("leaf")), &names, Some(2)), [0]);
+        assert_eq!(numbers(Some(&name("apple")), &names, None), [1]);
+        assert_eq!(numbers(Some(&ClassChoice::Number(0)), &names, Some(2)), [0]);
+        assert_eq!(numbers(None, &[], Some(80)), [47]);
+        assert_eq!(numbers(Some(&name("orange")), &[], Some(80)), [49]);
+        assert_eq!(numbers(Some(&ClassChoice::Number(7)), &[], None), [7]);
+        assert_eq!(chosen(None, &names, Some(2)).note, None);
+    }
+
+    #[test]
+    fn a_class_is_an_apple_by_a_word_of_its_name_and_never_by_being_the_first() {
+        let ripe = chosen(None, &["Leaf", "Apple_Ripe", "Stem"], Some(3));
         assert_eq!(
-            choose(Some(&ClassChoice::Number(0)), Some(&names), Some(2)),
-            Ok(0)
+            (&*ripe.classes, &*ripe.names),
+            (&[1][..], &["Apple_Ripe".to_owned()][..])
         );
-        assert_eq!(choose(None, None, Some(3)), Ok(0));
-        assert_eq!(choose(None, None, None), Ok(0));
-        assert_eq!(choose(None, None, Some(80)), Ok(47));
-        assert_eq!(choose(Some(&name("orange")), None, Some(80)), Ok(49));
-        assert_eq!(choose(Some(&ClassChoice::Number(7)), None, None), Ok(7));
+        assert_eq!(
+            ripe.note.as_deref(),
+            Some("class `Apple_Ripe` is taken for apples")
+        );
+        let both = chosen(None, &["ripe apple", "leaf", "unripe-apple"], Some(3));
+        assert_eq!(both.classes, [0, 2]);
+        let only = chosen(None, &["fruit"], Some(1));
+        assert!(only.note.unwrap().contains("`fruit`"));
+        let none = choose(
+            None,
+            Some(&["leaf".to_owned(), "trunk".to_owned()]),
+            Some(2),
+        )
+        .unwrap_err();
+        assert!(
+            none.remedy.contains("--class") && none.remedy.contains("`trunk`"),
+            "{none:?}"
+        );
+    }
+
+    #[test]
+    fn without_names_the_first_is_taken_and_said() {
+        let one = chosen(None, &[], Some(1));
+        assert_eq!((&*one.classes, one.note), (&[0][..], None));
+        for (count, words) in [(Some(3), "class 0 of 3"), (None, "class 0 is taken")] {
+            let guess = chosen(None, &[], count);
+            assert!(
+                guess.is_guess && guess.note.as_ref().unwrap().contains(words),
+                "{guess:?}"
+            );
+        }
     }
 
     #[test]

@@ -2,6 +2,7 @@
 
 mod collector;
 mod decoder;
+mod end_to_end;
 mod grids;
 mod recognise;
 mod table;
@@ -30,11 +31,15 @@ pub(crate) fn decode(decoder: &Decoder, outputs: &[Tensor]) -> Result<Vec<Detect
             "export the model again",
         )
     })?;
+    if end_to_end::is(decoder, outputs) {
+        return end_to_end::decode(decoder, outputs);
+    }
     match decoder.family {
         Family::YoloV3 => yolov3::decode(decoder, outputs),
         Family::YoloV3Nms => yolov3_nms::decode(decoder, outputs),
         Family::YoloV5 => yolov5::decode(decoder, outputs),
         Family::YoloV8 => yolov8::decode(decoder, outputs),
+        Family::EndToEnd => end_to_end::decode(decoder, outputs),
         Family::YoloX => yolox::decode(decoder, outputs),
     }
 }

@@ -1,10 +1,10 @@
 mod values;
 
 use crate::{
-    classes::ClassChoice,
     error::DetectError,
     family::{Coordinates, Family},
 };
+use pomona_cloud::ClassChoice;
 use pomona_network::{
     ChannelOrder, Malformed, NetworkError, Padding, Preparation, TilingChoice, TilingOptions,
     description,

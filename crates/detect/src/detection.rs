@@ -62,6 +62,24 @@ pub trait Detector: Send + Sync {
     /// [`DetectError`]; an image without apples is not one.
     fn detect(&self, image: &ColorImage) -> Result<Vec<Detection>, DetectError>;
 
+    /// What it would give in `image` for each of these lowest scores, in their order: where boxes of several tiles are
+    /// joined, those that a higher threshold leaves out have no say in it.
+    ///
+    /// By default the boxes of that score of what [`Detector::detect`] gives.
+    ///
+    /// # Errors
+    ///
+    /// As [`Detector::detect`].
+    fn detect_at(
+        &self,
+        image: &ColorImage,
+        lowest_scores: &[f64],
+    ) -> Result<Vec<Vec<Detection>>, DetectError> {
+        let all = self.detect(image)?;
+        let above = |lowest: &f64| all.iter().filter(|d| d.score >= *lowest).copied().collect();
+        Ok(lowest_scores.iter().map(above).collect())
+    }
+
     /// Which detector this is, for the record.
     fn report(&self) -> DetectorReport;
 }
@@ -75,6 +93,9 @@ pub struct DetectorReport {
     /// How its outputs were read, such as `yolox`; absent where it has no such choice.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub family: Option<String>,
+    /// Name of the class that counts, or the names of several; absent where the model's classes have none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub class_name: Option<String>,
     /// The inference backend; absent where none of ours ran.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub runtime: Option<RuntimeReport>,

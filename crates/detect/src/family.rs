@@ -31,7 +31,14 @@ pub enum Family {
         alias = "yolo11"
     )]
     YoloV8,
-    /// YOLOX: `[1, N, 5+C]`, one row for each cell, its box relative to the cell and in units of the stride.
+    /// What suppresses its boxes itself, such as `YOLOv10`, YOLO26 and Ultralytics' exports with `nms=True`: `[1, N, 6]`,
+    /// left, upper, right and lower edge, score and number of the class; numbers behind them are not read.
+    ///
+    /// Wang et al., `YOLOv10`: Real-Time End-to-End Object Detection, arXiv 2405.14458, section 3.1.
+    #[serde(rename = "end2end", alias = "yolov10", alias = "yolo26")]
+    EndToEnd,
+    /// YOLOX: `[1, N, 5+C]`, one row for each cell, its box relative to the cell and in units of the stride; or in
+    /// pixels of the input, where the model was exported with its boxes decoded.
     ///
     /// Ge et al., YOLOX: Exceeding YOLO Series in 2021, arXiv 2107.08430, section 2.1.
     #[serde(rename = "yolox")]
@@ -46,6 +53,7 @@ impl Family {
             Self::YoloV3Nms => "yolov3-nms",
             Self::YoloV5 => "yolov5",
             Self::YoloV8 => "yolov8",
+            Self::EndToEnd => "end2end",
             Self::YoloX => "yolox",
         }
     }
@@ -55,7 +63,7 @@ impl Family {
         let mut preparation = Preparation::default();
         match self {
             Self::YoloV3 | Self::YoloV3Nms => preparation.fill = 128,
-            Self::YoloV5 | Self::YoloV8 => {}
+            Self::YoloV5 | Self::YoloV8 | Self::EndToEnd => {}
             Self::YoloX => {
                 preparation.channels = ChannelOrder::Bgr;
                 preparation.scale = 1.0;
@@ -69,7 +77,7 @@ impl Family {
     pub fn input_side(self) -> usize {
         match self {
             Self::YoloV3 | Self::YoloV3Nms => 416,
-            Self::YoloV5 | Self::YoloV8 | Self::YoloX => 640,
+            Self::YoloV5 | Self::YoloV8 | Self::EndToEnd | Self::YoloX => 640,
         }
     }
 }

@@ -12,6 +12,9 @@ const CUT_MARGIN_PX: f64 = 4.0;
 /// A cut box of which more than this share of the area lies in a whole one is part of it.
 const PART_OF_WHOLE: f64 = 0.5;
 
+/// A box of which more than this share of the area lies in a larger one may be a fragment of the same fruit.
+const INSIDE: f64 = 0.85;
+
 /// Least score that a box weighs by: boxes of score 0 must still have a mean.
 const LEAST_SCORE: f64 = 1e-6;
 
@@ -32,7 +35,7 @@ pub struct View {
 ///
 /// Boxes of one class that lie on each other become their weighted mean (Solovyev, Wang and Gabruseva, Weighted boxes
 /// fusion, Image and Vision Computing 107, 2021, section 3, doi 10.1016/j.imavis.2021.104117): the best box first,
-/// each joins the mean that it overlaps most, or begins one of its own. It differs in three things, since here not
+/// each joins the mean that it overlaps most, or begins one of its own. It differs in four things, since here not
 /// several networks see one image, but one network sees parts of it:
 ///
 /// - a box weighs its score times the square of the view's scale, for the errors of a network are of a size in
@@ -42,19 +45,22 @@ pub struct View {
 ///   lies in a whole box, to which it leaves its score if it shows what can be seen of that one there. Cut boxes for
 ///   which there is no whole one, those of apples larger than the tiles' overlap, are compared by what both views show,
 ///   and joined to the box around all their parts.
+/// - a box counts as cut, too, where it lies inside a larger one that its view does not show to the end, and the view that
+///   does has no such box there: it is a fragment of the same fruit that ends before the border.
 ///
 /// The order of the views, and of the boxes in them, changes nothing.
 pub fn fuse(views: &[View], [width, height]: [usize; 2], nms_iou: f64) -> Vec<Detection> {
     let mut sightings: Vec<Sighting> = Vec::new();
-    for view in views {
+    for (number, view) in views.iter().enumerate() {
         let boxes = view.detections.iter().filter(|d| is_box(d));
-        sightings.extend(boxes.map(|d| Sighting::new(*d, view, [width, height])));
+        sightings.extend(boxes.map(|d| Sighting::new(*d, view, number, [width, height])));
     }
     sightings.sort_by(|a, b| {
         best_first(&a.detection, &b.detection).then_with(|| b.weight.total_cmp(&a.weight))
     });
     let all: Vec<Detection> = sightings.iter().map(|s| s.detection).collect();
     let cell = widest(&all);
+    mark_fragments(&mut sightings, cell, nms_iou);
     let (cut, whole): (Vec<Sighting>, Vec<Sighting>) = sightings.into_iter().partition(|s| s.cut);
     let (mut fused, near) = fuse_whole(&whole, cell, nms_iou);
     let left = absorb(&cut, &mut fused, &near, nms_iou);
@@ -71,10 +77,14 @@ struct Sighting {
     seen: Detection,
     cut: bool,
     weight: f64,
+    /// Number of its view.
+    view: usize,
+    /// Pixels of the image for the error of an edge.
+    margin: f64,
 }
 
 impl Sighting {
-    fn new(detection: Detection, view: &View, [width, height]: [usize; 2]) -> Self {
+    fn new(detection: Detection, view: &View, number: usize, [width, height]: [usize; 2]) -> Self {
         let window = view.window;
         let seen = Detection {
             x_min: window.x0 as f64,
@@ -94,7 +104,45 @@ impl Sighting {
             seen,
             cut,
             weight,
+            view: number,
+            margin,
         }
+    }
+
+    /// Whether its view shows a box to the end.
+    fn shows(&self, other: &Detection) -> bool {
+        other.x_min >= self.seen.x_min - self.margin
+            && other.y_min >= self.seen.y_min - self.margin
+            && other.x_max <= self.seen.x_max + self.margin
+            && other.y_max <= self.seen.y_max + self.margin
+    }
+}
+
+/// Marks as cut what lies inside a larger box that its view does not show to the end, unless the larger one's view shows
+/// it there too.
+fn mark_fragments(sightings: &mut [Sighting], cell: f64, nms_iou: f64) {
+    let mut near = Near::new(cell);
+    for (number, sighting) in sightings.iter().enumerate() {
+        near.insert(number, &sighting.detection);
+    }
+    let is_fragment = |small: &Sighting| {
+        let box_of = |k: usize| &sightings[k];
+        let around = near.of(&small.detection).map(box_of).filter(|large| {
+            let area = small.detection.area();
+            !large.cut
+                && large.detection.area() > area
+                && common(&small.detection, &large.detection).area() > INSIDE * area
+                && !small.shows(&large.detection)
+        });
+        around.into_iter().any(|large| {
+            let of_view = near.of(&small.detection).map(box_of);
+            let mut same = of_view.filter(|other| other.view == large.view);
+            !same.any(|other| other.detection.iou(&small.detection) > nms_iou)
+        })
+    };
+    let fragments: Vec<bool> = sightings.iter().map(|s| !s.cut && is_fragment(s)).collect();
+    for (sighting, fragment) in sightings.iter_mut().zip(fragments) {
+        sighting.cut |= fragment;
     }
 }
 

@@ -84,12 +84,12 @@ mod detection;
 mod error;
 mod family;
 mod fuse;
+mod metadata;
 mod onnx_detector;
 mod open;
 mod options;
 mod suppress;
 
-pub use classes::ClassChoice;
 pub use description::ModelDescription;
 pub use detection::{Detection, Detector, DetectorReport};
 pub use error::DetectError;
@@ -98,6 +98,9 @@ pub use fuse::{View, fuse};
 pub use onnx_detector::OnnxDetector;
 pub use options::DetectorOptions;
 pub use suppress::{Scope, suppress};
+
+// The types of `pomona-cloud` that name a class.
+pub use pomona_cloud::ClassChoice;
 
 // Those types of `pomona-network` that the types above are made with.
 pub use pomona_network::{Network, NetworkError, RuntimeChoice, RuntimeReport, TilingChoice};

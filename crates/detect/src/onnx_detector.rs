@@ -6,6 +6,7 @@ use crate::{
     error::DetectError,
     family::Family,
     fuse::{View, fuse},
+    metadata::{Metadata, Task},
     options::DetectorOptions,
     suppress::{Scope, suppress},
 };
@@ -31,6 +32,7 @@ pub struct OnnxDetector {
     decoder: Decoder,
     nms_iou: f64,
     tiling: Tiling,
+    class_name: Option<String>,
     notes: Vec<String>,
 }
 
@@ -53,8 +55,11 @@ impl OnnxDetector {
         check_share("threshold", options.threshold)?;
         check_share("nms_iou", options.nms_iou)?;
         let recognised = Recognised::new(&*network, description, options);
-        let Recognised { decoder, notes } =
-            recognised.map_err(|fault| NetworkError::model(&*name, fault))?;
+        let Recognised {
+            decoder,
+            class_name,
+            notes,
+        } = recognised.map_err(|fault| NetworkError::model(&*name, fault))?;
         let tiling = Tiling::new(&description.tiling(options.tiling), decoder.input)?;
         let preparation = description.preparation(decoder.family);
         let network = ImageNetwork::new(network, decoder.input, preparation);
@@ -67,6 +72,7 @@ impl OnnxDetector {
                 .or(description.nms_iou)
                 .unwrap_or(DEFAULT_NMS_IOU),
             tiling,
+            class_name,
             notes,
         })
     }
@@ -126,13 +132,47 @@ impl OnnxDetector {
 
 impl Detector for OnnxDetector {
     fn detect(&self, image: &ColorImage) -> Result<Vec<Detection>, DetectError> {
+        Ok(self.fused(&self.views(image)?, image))
+    }
+
+    fn detect_at(
+        &self,
+        image: &ColorImage,
+        lowest_scores: &[f64],
+    ) -> Result<Vec<Vec<Detection>>, DetectError> {
+        let views = self.views(image)?;
+        // Suppression goes from the best box down, so that those left out here have removed none of the rest.
+        let above = |lowest: &f64| {
+            let mut views = views.clone();
+            for view in &mut views {
+                view.detections.retain(|d| d.score >= *lowest);
+            }
+            self.fused(&views, image)
+        };
+        Ok(lowest_scores.iter().map(above).collect())
+    }
+
+    fn report(&self) -> DetectorReport {
+        DetectorReport {
+            name: self.name.clone(),
+            family: Some(self.decoder.family.name().to_owned()),
+            class_name: self.class_name.clone(),
+            runtime: Some(self.network.network().report()),
+            notes: self.notes.clone(),
+        }
+    }
+}
+
+impl OnnxDetector {
+    /// What each window of an image shows.
+    fn views(&self, image: &ColorImage) -> Result<Vec<View>, DetectError> {
         check_image(image)?;
         let size = [image.width, image.height];
         let windows = self.tiling.windows(size);
         let read = |letterbox, outputs: Vec<Tensor>| self.view(size, letterbox, &outputs);
         let mut views = self.network.run_windows(image, &windows, read)?;
-        if let [view] = &mut views[..] {
-            return Ok(std::mem::take(&mut view.detections));
+        if views.len() == 1 {
+            return Ok(views);
         }
         let smallest = self.smallest_of_whole_pass();
         for view in &mut views {
@@ -141,15 +181,13 @@ impl Detector for OnnxDetector {
                 view.detections.retain(|d| side(d) >= smallest);
             }
         }
-        Ok(fuse(&views, size, self.nms_iou))
+        Ok(views)
     }
 
-    fn report(&self) -> DetectorReport {
-        DetectorReport {
-            name: self.name.clone(),
-            family: Some(self.decoder.family.name().to_owned()),
-            runtime: Some(self.network.network().report()),
-            notes: self.notes.clone(),
+    fn fused(&self, views: &[View], image: &ColorImage) -> Vec<Detection> {
+        match views {
+            [view] => view.detections.clone(),
+            views => fuse(views, [image.width, image.height], self.nms_iou),
         }
     }
 }
@@ -157,6 +195,7 @@ impl Detector for OnnxDetector {
 /// What a network's inputs and outputs, its description and the options say together.
 struct Recognised {
     decoder: Decoder,
+    class_name: Option<String>,
     /// What was assumed.
     notes: Vec<String>,
 }
@@ -169,13 +208,14 @@ impl Recognised {
     ) -> Result<Self, Malformed> {
         description.check()?;
         let mut description = description.clone();
+        let metadata = Metadata::new(network.metadata());
         if description.classes.is_none() {
-            description.classes = classes::from_metadata(network.metadata());
+            description.classes.clone_from(&metadata.names);
         }
         let (inputs, outputs) = (network.inputs(), network.outputs());
         let [width, height] = input_size(inputs, description.input_size)?;
         let known = width.zip(height).map(<[usize; 2]>::from);
-        let family = recognise(inputs, outputs, known, &description)?;
+        let family = recognise(inputs, outputs, known, &description, &metadata)?;
         let mut notes = Vec::new();
         let input = known.unwrap_or_else(|| {
             let usual = family.input_side();
@@ -186,13 +226,17 @@ impl Recognised {
             ));
             [width, height]
         });
-        let count = class_count(family, outputs, input, &description);
+        let count = class_count(family, outputs, input, &description, &metadata);
         let choice = options.class.as_ref().or(description.class.as_ref());
+        let chosen = classes::choose(choice, description.classes.as_deref(), count)?;
+        notes.extend(chosen.note);
         let decoder = Decoder {
             family,
             stated: description.family.is_some(),
             input,
-            class: classes::choose(choice, description.classes.as_deref(), count)?,
+            wanted: chosen.classes,
+            class_is_guess: chosen.is_guess,
+            has_more: metadata.task == Task::BoxesAndMore,
             threshold: options
                 .threshold
                 .or(description.threshold)
@@ -203,7 +247,12 @@ impl Recognised {
             coordinates: description.coordinates,
             ports: outputs.to_vec(),
         };
-        Ok(Self { decoder, notes })
+        let class_name = (!chosen.names.is_empty()).then(|| chosen.names.join(", "));
+        Ok(Self {
+            decoder,
+            class_name,
+            notes,
+        })
     }
 }
 

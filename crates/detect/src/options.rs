@@ -1,4 +1,4 @@
-use crate::classes::ClassChoice;
+use pomona_cloud::ClassChoice;
 use pomona_network::{RuntimeChoice, TilingChoice};
 use std::path::PathBuf;
 
@@ -10,7 +10,8 @@ pub struct DetectorOptions {
     pub model: Option<PathBuf>,
     /// The inference backend.
     pub runtime: RuntimeChoice,
-    /// The class that counts; by the description, else the one named `apple`, else class 0, where absent.
+    /// The class that counts; by the description, else what is an apple by its name, else the only one, where absent.
+    /// Where classes have no names it is class 0, and a note in the report says so.
     pub class: Option<ClassChoice>,
     /// Lowest score of a box, 0 to 1; by the description, else 0.25, where absent.
     pub threshold: Option<f64>,

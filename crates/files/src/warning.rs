@@ -58,6 +58,20 @@ codes! {
     FrameIdAssumed = "frame_id_assumed", Note;
     /// A camera file does not say how long a unit of the depth image is; a millimetre is taken.
     DepthScaleAssumed = "depth_scale_assumed", Note;
+    /// Boxes of other classes, crowd regions or boxes of a low score in a box file are left out.
+    BoxesLeftOut = "boxes_left_out", Note;
+    /// A box file has one class, whose name is not that of an apple; its boxes are taken.
+    BoxClassAssumed = "box_class_assumed", Note;
+    /// A box file names another image than the frame's, and no second one; its boxes are taken.
+    BoxImageAssumed = "box_image_assumed", Note;
+    /// A model does not state what is needed to read it, such as the size of its input or which of its classes is an apple.
+    DetectorAssumed = "detector_assumed", Note;
+    /// EXIF data turn or mirror a picture for viewers; it is read as stored.
+    ImageTurned = "image_turned", Warning;
+    /// A box file has boxes, and none of them is of the frame's image.
+    NoBoxesOfImage = "no_boxes_of_image", Warning;
+    /// Boxes of a YOLO text reach beyond the image, and would lie in it if the numbers stood in another order.
+    BoxOrderDoubtful = "box_order_doubtful", Warning;
 }
 
 impl fmt::Display for WarningCode {

@@ -12,6 +12,9 @@ pub struct DetectorReport {
     /// How the model's outputs were read, such as yolox.
     #[schemars(skip_serializing_if = "Option::is_none")]
     pub family: Option<String>,
+    /// Name of the class that counts, or the names of several; absent where the model's classes have none.
+    #[schemars(skip_serializing_if = "Option::is_none")]
+    pub class_name: Option<String>,
     /// The inference backend; absent where none of ours ran.
     #[schemars(skip_serializing_if = "Option::is_none")]
     pub runtime: Option<RuntimeReport>,

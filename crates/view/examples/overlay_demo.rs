@@ -5,7 +5,7 @@
 //! `boxes.xml`. Radii, directions and refusals are invented; no apple is fitted.
 
 use nalgebra::{Point3, Vector3};
-use pomona_cloud::{Camera, ColorImage, DepthImage, PixelBox, PointCloud, read_boxes};
+use pomona_cloud::{Camera, ColorImage, DepthImage, Frame, PixelBox, PointCloud};
 use pomona_geometry::Sphere;
 use pomona_statistics::upper_median;
 use pomona_view::{
@@ -32,7 +32,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let color = ColorImage::read(folder.join("color.png"))?;
     let depth = DepthImage::read(folder.join("depth.png"))?;
     let camera = Camera::read(folder.join("camera.json"))?;
-    let boxes = read_boxes(folder.join("boxes.xml"), color.width, color.height)?;
+    let boxes = Frame::read(folder)?.boxes.unwrap_or_default();
 
     let fakes: Vec<Option<Fake>> = boxes
         .iter()

@@ -1,11 +1,17 @@
 use super::*;
 use boon::{Compiler, Draft, Schemas};
 use clap::Parser;
-use pomona_cloud::read_boxes;
+use pomona_cloud::{BoxChoice, BoxImage, PixelBox, read_boxes};
 use pomona_detect::{DetectError, DetectorReport, RuntimeReport};
 use serde_json::Value;
 use std::path::Path;
 use tempfile::TempDir;
+
+fn boxes_in(path: &Path) -> Vec<PixelBox> {
+    read_boxes(path, &BoxImage::new(64, 48), &BoxChoice::default())
+        .unwrap()
+        .value
+}
 
 /// Sees one box in the middle of an image, one that reaches out of it, and one beyond it.
 struct Middle;
@@ -130,7 +136,7 @@ fn each_format_holds_the_boxes_and_a_later_run_replaces_the_earlier() {
         names(&dir),
         ["a-boxes.png", "a.xml", "detections.json", "notes.txt"]
     );
-    let boxes = read_boxes(dir.path().join("out/a.xml"), 64, 48).unwrap();
+    let boxes = boxes_in(&dir.path().join("out/a.xml"));
     assert_eq!(
         (boxes.len(), boxes[0].x_min, boxes[1].x_min),
         (2, 16.0, -3.0)
@@ -138,7 +144,7 @@ fn each_format_holds_the_boxes_and_a_later_run_replaces_the_earlier() {
 
     detect_in(&dir, &["a.png"], &["--format", "yolo", "--no-picture"]).unwrap();
     assert_eq!(names(&dir), ["a.txt", "detections.json", "notes.txt"]);
-    let boxes = read_boxes(dir.path().join("out/a.txt"), 64, 48).unwrap();
+    let boxes = boxes_in(&dir.path().join("out/a.txt"));
     assert_eq!((boxes[0].x_max, boxes[0].score), (32.0, 0.875));
 }
 

@@ -6,6 +6,10 @@ use pomona_detect::DetectorReport;
 /// What detected, in one line.
 fn detector(report: &DetectorReport) -> String {
     let family = report.family.as_ref().map(|family| format!(" ({family})"));
+    let class = report
+        .class_name
+        .as_ref()
+        .map(|class| format!(", class {class}"));
     let runtime = report.runtime.as_ref().map(|runtime| {
         let library = runtime
             .library
@@ -14,7 +18,7 @@ fn detector(report: &DetectorReport) -> String {
         let library = library.unwrap_or_default();
         format!(", run by {} {}{library}", runtime.name, runtime.version)
     });
-    let parts = [Some(report.name.clone()), family, runtime];
+    let parts = [Some(report.name.clone()), family, class, runtime];
     one_line(&parts.into_iter().flatten().collect::<String>())
 }
 

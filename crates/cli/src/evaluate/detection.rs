@@ -9,7 +9,7 @@ use crate::summary::plural;
 use crate::terminal::Terminal;
 use anyhow::bail;
 use clap::Args;
-use pomona_cloud::{ColorImage, PixelBox};
+use pomona_cloud::{ColorImage, PixelBox, WarningCode};
 use pomona_detect::{ClassChoice, Detection, Detector};
 use pomona_labels::{
     DETECTION_SCHEMA, DetectionEvaluation, DetectionOptions, DetectionSource, GroundTruthBox,
@@ -192,6 +192,24 @@ fn model_name(model: &Model) -> String {
 
 fn say_what_is_left_out(dataset: &LabelledDataset, terminal: Terminal) {
     let name = &dataset.name;
+    // One of each kind is said in full: a data set of photographs may have them by the thousand.
+    let mut said: Vec<WarningCode> = Vec::new();
+    for (file, warning) in &dataset.warnings {
+        if said.contains(&warning.code) {
+            continue;
+        }
+        said.push(warning.code);
+        terminal.warn(&file.display().to_string(), warning);
+        let same = dataset
+            .warnings
+            .iter()
+            .filter(|(_, other)| other.code == warning.code);
+        let more = same.count() - 1;
+        if more > 0 {
+            let files = plural(more, "more file");
+            terminal.note(&format!("{name}: the same of {files}"));
+        }
+    }
     if dataset.without_label_file > 0 {
         terminal.note(&format!(
             "{name}: {} without a label file, taken for background as YOLO has it",

@@ -4,9 +4,13 @@ use std::path::Path;
 
 /// Whether a file that begins so is a PCD or a PLY.
 pub(super) fn is_cloud(start: &[u8]) -> bool {
-    [&b"ply"[..], b"# .PCD", b"VERSION"]
+    let is_ply = start
+        .first_chunk::<3>()
+        .is_some_and(|word| word.eq_ignore_ascii_case(b"ply"));
+    let is_pcd = [&b"# .PCD"[..], b"VERSION"]
         .iter()
-        .any(|magic| start.starts_with(magic))
+        .any(|magic| start.starts_with(magic));
+    is_ply || is_pcd
 }
 
 pub(super) fn facts(path: &Path) -> anyhow::Result<Facts> {

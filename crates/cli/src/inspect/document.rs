@@ -4,7 +4,7 @@ use crate::summary::Summary;
 use anyhow::{anyhow, bail};
 use pomona::record::{PicksRecord, SCHEMA};
 use pomona::{Config, RobotFromCamera};
-use pomona_cloud::{ColorImage, read_boxes};
+use pomona_cloud::{BoxChoice, BoxImage, ColorImage, Frame, read_boxes};
 use pomona_scenes::{TRUTH_SCHEMA, Truth};
 use pomona_transforms::SCHEMA as TRANSFORM_SCHEMA;
 use serde_json::Value;
@@ -29,14 +29,21 @@ pub(super) fn json(path: &Path) -> anyhow::Result<Facts> {
         )),
         Some(TRUTH_SCHEMA) => Ok(truth(path, &Truth::read(path)?)),
         Some(TRANSFORM_SCHEMA) => Ok(transform(path, &RobotFromCamera::read(path)?)),
+        Some(schema) if schema.starts_with("pomona.detections/") => boxes(path),
         Some(other) => bail!(
             "{}: its schema is `{other}`; known are {}, {TRUTH_SCHEMA} and {TRANSFORM_SCHEMA}",
             path.display(),
             SCHEMA
         ),
-        None if value.is_array() || value.get("annotations").is_some() => boxes(path),
+        None if holds_boxes(&value) => boxes(path),
         None => camera::facts(path),
     }
+}
+
+/// Whether a JSON without a schema is of boxes: a list, COCO or `LabelMe`.
+fn holds_boxes(value: &Value) -> bool {
+    let keys = ["annotations", "shapes"];
+    value.is_array() || keys.iter().any(|key| value.get(key).is_some())
 }
 
 fn record(path: &Path, record: &PicksRecord) -> Facts {
@@ -112,16 +119,19 @@ pub(super) fn settings(path: &Path) -> anyhow::Result<Facts> {
 
 /// Boxes, whose numbers mean something only in their image: the one beside them.
 pub(super) fn boxes(path: &Path) -> anyhow::Result<Facts> {
-    let beside = ["color.png", "color.jpg", "color.jpeg"].map(|name| path.with_file_name(name));
-    let Some(image) = beside.iter().find(|image| image.exists()) else {
+    let beside = Frame::COLOR_FILES.map(|name| path.with_file_name(name));
+    let Some(file) = beside.iter().find(|image| image.exists()) else {
         bail!(
             "{}: boxes belong to an image, and no color.png or color.jpg lies beside them; put them into their frame's folder",
             path.display()
         );
     };
-    let image = ColorImage::read(image)?;
-    let boxes = read_boxes(path, image.width, image.height)?;
+    let (width, height) = ColorImage::read_size(file)?;
+    let image = BoxImage::new(width, height).at(file);
+    let read = read_boxes(path, &image, &BoxChoice::default())?;
+    let boxes = read.value;
     let mut facts = Facts::new(path, "boxes");
+    facts.warn(read.warnings);
     facts.say("boxes", boxes.len());
     for (name, side) in [("width_px", 0), ("height_px", 1)] {
         let sides = boxes.iter().map(|b| [b.width(), b.height()][side]);

@@ -4,7 +4,8 @@ use crate::detector::DetectorArguments;
 use crate::settings::SettingsArguments;
 use crate::wood::{SegmenterChoice, parse_segmenter};
 use clap::Args;
-use std::path::PathBuf;
+use pomona_cloud::Frame;
+use std::path::{Path, PathBuf};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -46,7 +47,8 @@ pub(crate) struct PickArguments {
     /// Output folder; several frames get a folder each in it. Files of earlier runs are replaced.
     #[arg(short, long, value_name = "DIR")]
     pub(super) out: PathBuf,
-    /// Boxes of the apples (VOC, COCO or YOLO) instead of the frame's own; for one frame.
+    /// Boxes of the apples (VOC, COCO, YOLO, CVAT, `LabelMe`, Label Studio, or what `pomona detect` wrote) instead of
+    /// the frame's own; for one frame.
     #[arg(long, value_name = "FILE")]
     pub(super) boxes: Option<PathBuf>,
     /// Where wood is: an 8-bit grey image of the colour image's size, 255 where it is sure of wood, such as
@@ -106,6 +108,16 @@ impl PickArguments {
     pub(super) fn of_one_frame(&self) -> Option<&'static str> {
         let boxes = self.boxes.is_some().then_some("--boxes");
         boxes.or(self.wood.is_some().then_some("--wood"))
+    }
+
+    /// Whether the apples of a frame are boxed in a file, so that no detector runs.
+    pub(super) fn has_boxes(&self, frame: &Path) -> bool {
+        let own = || {
+            Frame::BOX_FILES
+                .iter()
+                .any(|name| frame.join(name).exists())
+        };
+        !self.detect && (self.boxes.is_some() || own())
     }
 
     /// Which files a frame's answers are written to.

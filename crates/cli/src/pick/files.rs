@@ -22,13 +22,20 @@ fn cloud_name(id: usize) -> String {
     format!("apple-{id}.ply")
 }
 
+/// What says that the files beside it are ours.
+const RECORD: RecordFile<'static> = RecordFile {
+    name: PICKS,
+    schema: "pomona.picks/",
+};
+
 /// Claims the names of these files in `folder`.
 pub(super) fn claim(folder: &Path) -> anyhow::Result<OutputFolder> {
-    let record = RecordFile {
-        name: PICKS,
-        schema: "pomona.picks/",
-    };
-    OutputFolder::claim(folder, &[record], is_ours)
+    OutputFolder::claim(folder, &[RECORD], is_ours)
+}
+
+/// Removes the answers of an earlier run that stand in `folder` itself, where this one writes a folder for each frame.
+pub(super) fn remove_earlier(folder: &Path) -> anyhow::Result<()> {
+    OutputFolder::remove_earlier(folder, RECORD, is_ours)
 }
 
 /// Whether a run may have written a file of this name beside the answers.

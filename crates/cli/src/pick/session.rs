@@ -6,9 +6,9 @@ use crate::wood::{self, SegmenterChoice};
 use anyhow::anyhow;
 use pomona::{
     ApproachConfig, CheckedFrame, Config, DetectedApples, FrameAnswer, Picker, Robot,
-    RobotFromCamera, find_apples,
+    RobotFromCamera, Warning, WarningCode, find_apples,
 };
-use pomona_cloud::{Frame, GrayImage, PixelBox, read_boxes};
+use pomona_cloud::{BoxSource, Frame, GrayImage, PixelBox};
 use pomona_detect::Detector;
 use pomona_segment::CloseUps;
 use std::cell::OnceCell;
@@ -85,6 +85,14 @@ impl<'a> Session<'a> {
             None => self.picker.pick(&frame, seed, pose)?,
         };
         log::info!("{id}: picked in {:.0?}", start.elapsed());
+        if let Some(detected) = &detected {
+            let detector = &detected.summary.detector;
+            let file = Path::new(&detector.name).file_name().unwrap_or_default();
+            let name = file.to_string_lossy();
+            let warning =
+                |note| Warning::new(WarningCode::DetectorAssumed, format!("{name}: {note}"));
+            answer.warnings.extend(detector.notes.iter().map(warning));
+        }
 
         let robot = self.robot.as_ref().zip(pose).map(|(robot, pose)| {
             let start = Instant::now();
@@ -108,16 +116,19 @@ impl<'a> Session<'a> {
     }
 
     fn read(&self, folder: &Path) -> anyhow::Result<Frame> {
-        let mut frame = Frame::read(folder)?;
-        if let Some(path) = &self.arguments.boxes {
-            frame.boxes = Some(read_boxes(path, frame.color.width, frame.color.height)?);
-        }
-        Ok(frame)
+        let arguments = self.arguments;
+        let boxes = match &arguments.boxes {
+            Some(path) => BoxSource::File(path.clone()),
+            None if arguments.detect => BoxSource::Nowhere,
+            None => BoxSource::Own,
+        };
+        let choice = arguments.detector.box_choice();
+        Ok(Frame::read_with(folder, &boxes, &choice)?)
     }
 
     /// What the detector finds, where the frame has no boxes or the command line asks for it.
     fn detected(&self, frame: &CheckedFrame<'_>) -> anyhow::Result<Option<DetectedApples>> {
-        if frame.frame().boxes.is_some() && !self.arguments.detect {
+        if frame.frame().boxes.is_some() {
             return Ok(None);
         }
         let detector = self.detector(&frame.frame().id)?;

@@ -101,3 +101,37 @@ fn what_cannot_be_fused_is_refused_and_writes_nothing() {
     bench.write("out/fused.json", "{}");
     fuse(&[&left, &right]).refused(&["not a result of this program"]);
 }
+
+#[test]
+fn answers_of_an_earlier_run_do_not_stay_beside_those_of_this_one() {
+    let bench = bench();
+    let (left, right, out) = (bench.text("left"), bench.text("right"), bench.text("out"));
+    let fixed = ["--out", &out, "--no-picture", "--clouds", "none"];
+    let run = |arguments: &[&str]| {
+        pomona(&[&["pick"], arguments, &fixed[..]].concat()).succeeded();
+        let names = tree(&bench.path("out"));
+        names
+            .into_iter()
+            .filter(|path| path.components().count() == 1)
+            .collect::<Vec<_>>()
+    };
+    let folders = ["left", "right"].map(PathBuf::from);
+    let fused = run(&[&left, &right, "--fuse", "--fused-cloud"]);
+    assert_eq!(
+        fused,
+        ["fused.json", "fused.ply", "left", "right"].map(PathBuf::from)
+    );
+    assert_eq!(run(&[&left, &right]), folders);
+    bench.write("out/notes.txt", "mine");
+    assert_eq!(
+        run(&[&left]),
+        ["left", "notes.txt", "picks.json", "right"].map(PathBuf::from)
+    );
+    assert_eq!(
+        run(&[&left, &right]),
+        ["left", "notes.txt", "right"].map(PathBuf::from)
+    );
+    // Somebody else's file of that name is left alone.
+    bench.write("out/fused.json", "{}");
+    assert!(run(&[&left, &right]).contains(&PathBuf::from("fused.json")));
+}

@@ -8,6 +8,7 @@
 mod bad_files;
 mod bad_frames;
 mod binary;
+mod box_files;
 mod calibrate;
 mod convert;
 mod detect;

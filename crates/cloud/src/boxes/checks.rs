@@ -48,25 +48,3 @@ pub(super) fn text_of(bytes: &[u8]) -> Result<&str, Malformed> {
     })?;
     Ok(text.trim_start_matches('\u{feff}'))
 }
-
-/// Refuses a box file that was made for an image of another size.
-pub(super) fn check_size(
-    place: &str,
-    stated: (f64, f64),
-    width: usize,
-    height: usize,
-) -> Result<(), Malformed> {
-    // Some tools write zeros where they do not know.
-    if stated == (0.0, 0.0) || stated == (width as f64, height as f64) {
-        return Ok(());
-    }
-    let problem = format!(
-        "boxes of an image of {}x{} but the image is {width}x{height}",
-        stated.0, stated.1
-    );
-    Err(Malformed::new(
-        place,
-        problem,
-        "give the boxes of this image, in its pixels",
-    ))
-}

@@ -1,7 +1,8 @@
 //! COCO JSON of many images, and the list of detections that its result files are.
 
 use super::checks::{at_file, text_of, touch_all};
-use super::coco::{Annotation, Category, Dataset, Image, fault};
+use super::coco::{Annotation, Category, Dataset, Image, fault, fault_of, unlisted};
+use super::coco_values::{Bounds, ImageKey, Polygons};
 use super::labelled::{LabelKind, LabelledBox};
 use super::pixel_box::PixelBox;
 use crate::CloudError;
@@ -24,8 +25,8 @@ pub struct CocoDataset {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct CocoImage {
-    /// Its number in the file.
-    pub id: u64,
+    /// What identifies it in the file.
+    pub id: ImageKey,
     /// Its file, relative to a folder that the dataset does not name.
     pub file_name: String,
     /// Width in pixels; 0 where the file does not say.
@@ -38,9 +39,9 @@ pub struct CocoImage {
 
 impl CocoImage {
     /// An image of unknown size without boxes.
-    pub fn new(id: u64, file_name: impl Into<String>) -> Self {
+    pub fn new(id: impl Into<ImageKey>, file_name: impl Into<String>) -> Self {
         Self {
-            id,
+            id: id.into(),
             file_name: file_name.into(),
             width: 0,
             height: 0,
@@ -53,7 +54,8 @@ impl CocoImage {
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct CocoCategory {
-    /// Its number, which `class_number` of a box refers to.
+    /// Its number, which `class_number` of a box refers to; its place in the list where the file identifies it by a
+    /// text.
     pub id: u64,
     /// Its name; empty where the file gives none.
     pub name: String,
@@ -77,16 +79,6 @@ pub struct CocoResult {
     pub image: ImageKey,
     /// The box, with its score.
     pub label: LabelledBox,
-}
-
-/// How a result file identifies an image.
-#[derive(Clone, Debug, PartialEq, Eq, Hash, Deserialize)]
-#[serde(untagged)]
-pub enum ImageKey {
-    /// The number of an image in the dataset.
-    Number(u64),
-    /// A text; some programs put the file's name without its ending here.
-    Name(String),
 }
 
 impl CocoDataset {
@@ -162,7 +154,7 @@ fn parse(bytes: &[u8]) -> Result<CocoDataset, Malformed> {
             let problem = format!("image {} without `file_name`", image.id);
             return Err(Malformed::new(place(), problem, "name its file"));
         };
-        if index_of.insert(image.id, index).is_some() {
+        if index_of.insert(image.id.clone(), index).is_some() {
             let problem = format!("the id {} is given twice", image.id);
             return Err(Malformed::new(
                 place(),
@@ -178,24 +170,22 @@ fn parse(bytes: &[u8]) -> Result<CocoDataset, Malformed> {
             boxes: Vec::new(),
         });
     }
-    for (index, annotation) in dataset.annotations.into_iter().enumerate() {
-        let Some(&image) = index_of.get(&annotation.image_id) else {
-            return Err(Malformed::new(
-                format!("`annotations`[{index}]"),
-                format!(
-                    "image_id {} is of no image in `images`",
-                    annotation.image_id
-                ),
-                "list its image, or remove the annotation",
-            ));
+    for (index, mut annotation) in dataset.annotations.into_iter().enumerate() {
+        let key = annotation.image_id.take().unwrap_or_default();
+        let Some(&image) = index_of.get(&key) else {
+            return Err(unlisted(index, &key.to_string()));
         };
-        let label = annotation.labelled(index, &dataset.categories);
+        let label = annotation.labelled(index, &dataset.categories)?;
         images[image].boxes.push(label);
     }
-    let categories = dataset.categories.into_iter().map(|c| CocoCategory {
-        id: c.id,
-        name: c.name.unwrap_or_default(),
-    });
+    let categories = dataset
+        .categories
+        .into_iter()
+        .enumerate()
+        .map(|(index, c)| CocoCategory {
+            id: c.number(index),
+            name: c.name.unwrap_or_default(),
+        });
     Ok(CocoDataset {
         images,
         categories: categories.collect(),
@@ -204,22 +194,25 @@ fn parse(bytes: &[u8]) -> Result<CocoDataset, Malformed> {
 
 fn format(dataset: &CocoDataset) -> String {
     let images = dataset.images.iter().map(|image| Image {
-        id: image.id,
+        id: image.id.clone(),
         file_name: Some(image.file_name.clone()),
         width: image.width as u32,
         height: image.height as u32,
     });
-    let boxes = dataset
-        .images
-        .iter()
-        .flat_map(|image| image.boxes.iter().map(move |label| (image.id, label)));
+    let boxes = dataset.images.iter().flat_map(|image| {
+        image
+            .boxes
+            .iter()
+            .map(move |label| (image.id.clone(), label))
+    });
     let annotations = boxes.zip(1..).map(|((image_id, label), id)| {
         let b = &label.bounds;
         Annotation {
-            id: Some(id),
-            image_id,
-            category_id: label.class_number.unwrap_or_default(),
-            bbox: [b.x_min, b.y_min, b.width(), b.height()],
+            id: Some(ImageKey::Number(id)),
+            image_id: Some(image_id),
+            category_id: ImageKey::Number(label.class_number.unwrap_or_default()),
+            bbox: Bounds(Some([b.x_min, b.y_min, b.width(), b.height()])),
+            segmentation: Polygons::default(),
             score: Some(b.score),
             name: Some(b.name.clone()),
             area: b.width() * b.height(),
@@ -228,7 +221,7 @@ fn format(dataset: &CocoDataset) -> String {
         }
     });
     let categories = dataset.categories.iter().map(|c| Category {
-        id: c.id,
+        id: ImageKey::Number(c.id),
         name: Some(c.name.clone()),
     });
     let dataset = Dataset {
@@ -245,21 +238,27 @@ fn parse_results(bytes: &[u8]) -> Result<Vec<CocoResult>, Malformed> {
     struct Entry {
         image_id: ImageKey,
         #[serde(default)]
-        category_id: u64,
-        bbox: [f64; 4],
+        category_id: ImageKey,
+        bbox: Bounds,
         score: f64,
     }
-    let entries: Vec<Entry> = serde_json::from_str(text_of(bytes)?).map_err(|e| {
-        let remedy = "give a COCO result list, each entry with image_id, bbox and score";
-        let Malformed { place, problem, .. } = fault(e);
-        Malformed::new(place, problem, remedy)
-    })?;
+    let remedy = "give a COCO result list, each entry with image_id, bbox and score";
+    let entries: Vec<Entry> =
+        serde_json::from_str(text_of(bytes)?).map_err(|e| fault_of(&e, remedy))?;
     let results = entries.into_iter().enumerate().map(|(index, entry)| {
-        let [x, y, w, h] = entry.bbox;
-        CocoResult {
+        let Bounds(Some([x, y, w, h])) = entry.bbox else {
+            let place = format!("entry {index}");
+            return Err(Malformed::new(place, "no `bbox`", remedy));
+        };
+        let (class_number, class_name) = match entry.category_id {
+            ImageKey::Number(number) => (Some(number), None),
+            ImageKey::Name(name) => (None, Some(name)),
+        };
+        Ok(CocoResult {
             image: entry.image_id,
             label: LabelledBox {
-                class_number: Some(entry.category_id),
+                class_number,
+                class_name,
                 ..LabelledBox::new(PixelBox {
                     name: index.to_string(),
                     x_min: x,
@@ -269,9 +268,9 @@ fn parse_results(bytes: &[u8]) -> Result<Vec<CocoResult>, Malformed> {
                     score: entry.score,
                 })
             },
-        }
+        })
     });
-    Ok(results.collect())
+    results.collect()
 }
 
 #[cfg(test)]
@@ -293,7 +292,7 @@ mod tests {
             })
         };
         let image = |id, name: &str, boxes| CocoImage {
-            id,
+            id: ImageKey::Number(id),
             file_name: name.to_owned(),
             width: 20,
             height: 10,

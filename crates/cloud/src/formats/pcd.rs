@@ -8,6 +8,7 @@
 
 mod point;
 
+use super::channels::to_bytes;
 use super::claim::check_claim;
 use crate::PointCloud;
 use pcd_rs::{DataKind, PcdMeta, Reader, Schema, ValueKind, ViewPoint, WriterInit};
@@ -37,10 +38,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<PointCloud, Malformed> {
     }
     check_size(&meta, body)?;
     let size = organised_size(&meta)?;
-    let has_color = meta
-        .field_defs
-        .iter()
-        .any(|field| point::color_channel(field).is_some());
+    let kinds = point::color_kinds(&meta.field_defs.fields);
 
     let at_point = |index: usize, e: pcd_rs::Error| {
         let place = match meta.data {
@@ -60,19 +58,21 @@ pub(super) fn parse(bytes: &[u8]) -> Result<PointCloud, Malformed> {
         x: Vec::with_capacity(count),
         y: Vec::with_capacity(count),
         z: Vec::with_capacity(count),
-        colors: has_color.then(|| Vec::with_capacity(count)),
+        colors: None,
         size,
     };
+    let mut raw = Vec::with_capacity(if kinds.is_some() { count } else { 0 });
     for (index, record) in reader.enumerate() {
         let record = record.map_err(|e| at_point(index, e))?;
         let [x, y, z] = record.position;
         cloud.x.push(x);
         cloud.y.push(y);
         cloud.z.push(z);
-        if let Some(colors) = &mut cloud.colors {
-            colors.push(record.color);
+        if kinds.is_some() {
+            raw.push(record.color);
         }
     }
+    cloud.colors = kinds.map(|kinds| to_bytes(&raw, kinds));
     Ok(cloud)
 }
 
@@ -191,7 +191,7 @@ pub(super) fn format(cloud: &PointCloud, kind: DataKind) -> Result<Vec<u8>, Malf
             .unwrap_or_default();
         writer.push(&PcdPoint {
             position: [cloud.x[i], cloud.y[i], cloud.z[i]],
-            color,
+            color: color.map(f32::from),
         })
     });
     // Always finished: the writer panics when it is dropped before.

@@ -8,8 +8,10 @@
 //! PLY has no organised clouds: a comment `pomona organised WIDTH HEIGHT` keeps the size, and
 //! the `obj_info num_cols` and `num_rows` of range scanners are read too, where they make up the points.
 
+mod tokens;
 mod vertex;
 
+use super::channels::to_bytes;
 use super::claim::check_claim;
 use crate::PointCloud;
 use ply_rs_bw::parser::{Parser, Reader};
@@ -18,7 +20,8 @@ use ply_rs_bw::ply::{
 };
 use ply_rs_bw::writer::Writer;
 use pomona_files::Malformed;
-use vertex::{Slot, Vertex};
+use tokens::Tokens;
+use vertex::Vertex;
 
 const DAMAGED: &str = "write the cloud again; this file is cut short or damaged";
 const SCHEMA: &str =
@@ -47,22 +50,17 @@ pub(super) fn parse(bytes: &[u8]) -> Result<PointCloud, Malformed> {
     }
     check_sizes(&header, body.len())?;
 
-    let has_color = vertex
-        .properties
-        .values()
-        .any(|p| matches!(Slot::of(p), Some(Slot::Color(_))));
+    let kinds = vertex::color_kinds(vertex);
+    let mut raw = Vec::with_capacity(if kinds.is_some() { vertex.count } else { 0 });
     let mut cloud = PointCloud {
         x: Vec::with_capacity(vertex.count),
         y: Vec::with_capacity(vertex.count),
         z: Vec::with_capacity(vertex.count),
-        colors: has_color.then(|| Vec::with_capacity(vertex.count)),
+        colors: None,
         size: organised_size(&header, vertex.count),
     };
     let mut source = match header.encoding {
-        Encoding::Ascii => Source::Text(Lines {
-            rest: body,
-            line: header_lines,
-        }),
+        Encoding::Ascii => Source::Text(Tokens::new(body, header_lines)),
         Encoding::BinaryLittleEndian => Source::LittleEndian(body),
         Encoding::BinaryBigEndian => Source::BigEndian(body),
     };
@@ -75,8 +73,8 @@ pub(super) fn parse(bytes: &[u8]) -> Result<PointCloud, Malformed> {
                 cloud.x.push(x);
                 cloud.y.push(y);
                 cloud.z.push(z);
-                if let Some(colors) = &mut cloud.colors {
-                    colors.push(read.color);
+                if kinds.is_some() {
+                    raw.push(read.color);
                 }
             }
         }
@@ -84,31 +82,28 @@ pub(super) fn parse(bytes: &[u8]) -> Result<PointCloud, Malformed> {
             break;
         }
     }
+    cloud.colors = kinds.map(|kinds| to_bytes(&raw, kinds));
     Ok(cloud)
 }
 
 /// The header, the bytes behind it, and the number of its lines.
 fn parse_header(bytes: &[u8]) -> Result<(Header, &[u8], usize), Malformed> {
-    let mut lines = Lines {
-        rest: bytes,
-        line: 0,
-    };
+    let mut lines = Tokens::new(bytes, 0);
     let mut plain = String::new();
     let (mut elements, mut properties) = (0, 0);
     loop {
-        let Some(line) = lines.next_any() else {
+        let Some(line) = lines.next_line() else {
             return Err(Malformed::new(
                 "PLY header",
                 "no `end_header` line",
                 DAMAGED,
             ));
         };
-        let text = String::from_utf8_lossy(line);
-        let text = text.trim();
+        let text = header_line(&String::from_utf8_lossy(line));
         elements += usize::from(text.starts_with("element "));
         properties += usize::from(text.starts_with("property "));
         if !text.is_empty() {
-            plain.push_str(text);
+            plain.push_str(&text);
             plain.push('\n');
         }
         if text == "end_header" {
@@ -131,6 +126,20 @@ fn parse_header(bytes: &[u8]) -> Result<(Header, &[u8], usize), Malformed> {
         ));
     }
     Ok((header, lines.rest, lines.line))
+}
+
+/// A line of the header as the grammar of `ply-rs-bw` has it: one space between words, and small letters but in
+/// comments.
+fn header_line(line: &str) -> String {
+    let words: Vec<&str> = line.split_whitespace().collect();
+    let is_free = words.first().is_some_and(|word| {
+        let word = word.to_ascii_lowercase();
+        word == "comment" || word == "obj_info"
+    });
+    if is_free {
+        return line.trim().replace('\t', " ");
+    }
+    words.join(" ").to_ascii_lowercase()
 }
 
 /// The messages of `ply-rs-bw` are several lines with tabs.
@@ -199,7 +208,7 @@ fn organised_size(header: &Header, count: usize) -> Option<(usize, usize)> {
 
 /// The data behind the header.
 enum Source<'a> {
-    Text(Lines<'a>),
+    Text(Tokens<'a>),
     LittleEndian(&'a [u8]),
     BigEndian(&'a [u8]),
 }
@@ -208,7 +217,7 @@ impl Source<'_> {
     fn next(&mut self, element: &ElementDef, index: usize) -> Result<Vertex, Malformed> {
         let parser = Parser::<Vertex>::new();
         let read = match self {
-            Self::Text(lines) => return lines.next_vertex(element, index),
+            Self::Text(tokens) => return tokens.vertex(element, index),
             Self::LittleEndian(rest) => parser.read_little_endian_element(rest, element),
             Self::BigEndian(rest) => parser.read_big_endian_element(rest, element),
         };
@@ -216,55 +225,6 @@ impl Source<'_> {
             let place = format!("{} {} of {}", element.name, index + 1, element.count);
             Malformed::new(place, one_line(&e.to_string()), DAMAGED)
         })
-    }
-}
-
-/// The lines of a text, whether they end in `\n`, `\r\n` or `\r`.
-struct Lines<'a> {
-    rest: &'a [u8],
-    /// Number of the line read last, from 1.
-    line: usize,
-}
-
-impl<'a> Lines<'a> {
-    fn next_any(&mut self) -> Option<&'a [u8]> {
-        if self.rest.is_empty() {
-            return None;
-        }
-        self.line += 1;
-        let end = self
-            .rest
-            .iter()
-            .position(|b| matches!(b, b'\n' | b'\r'))
-            .unwrap_or(self.rest.len());
-        let (line, tail) = self.rest.split_at(end);
-        let broken = tail.strip_prefix(b"\r\n").or_else(|| tail.get(1..));
-        self.rest = broken.unwrap_or_default();
-        Some(line)
-    }
-
-    fn next_vertex(&mut self, element: &ElementDef, index: usize) -> Result<Vertex, Malformed> {
-        let line = loop {
-            let Some(line) = self.next_any() else {
-                let problem = format!(
-                    "ends before {} {} of {}",
-                    element.name,
-                    index + 1,
-                    element.count
-                );
-                return Err(Malformed::new(
-                    format!("line {}", self.line),
-                    problem,
-                    DAMAGED,
-                ));
-            };
-            if !line.trim_ascii().is_empty() {
-                break line;
-            }
-        };
-        let text = String::from_utf8_lossy(line);
-        Vertex::from_text(&text, element)
-            .map_err(|problem| Malformed::new(format!("line {}", self.line), problem, DAMAGED))
     }
 }
 
@@ -299,7 +259,7 @@ pub(super) fn format(cloud: &PointCloud, encoding: Encoding) -> Result<Vec<u8>, 
             .unwrap_or_default();
         let vertex = Vertex {
             position: [cloud.x[i], cloud.y[i], cloud.z[i]],
-            color,
+            color: color.map(f32::from),
         };
         written = written.and_then(|_| match encoding {
             Encoding::Ascii => writer.write_ascii_element(&mut bytes, &vertex, &element),

@@ -1,8 +1,10 @@
-//! XYZ text: `x y z` or `x y z r g b` on each line, colours as bytes.
+//! XYZ text: `x y z` or `x y z r g b` on each line, colours as bytes or as fractions of one. Unit vectors in the place
+//! of the colours are normals, and passed over.
 //!
 //! Values are separated by blanks, tabs, commas or semicolons; `#` and `//` begin
 //! comments. A comment `pomona organised WIDTH HEIGHT` keeps the size of an organised cloud.
 
+use super::channels::{ChannelKind, to_bytes};
 use crate::PointCloud;
 use pomona_files::Malformed;
 use std::fmt::Write;
@@ -21,6 +23,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<PointCloud, Malformed> {
     let mut cloud = PointCloud::new();
     let mut size = None;
     let mut columns = None;
+    let mut more = Vec::new();
     for (line, number) in text.trim_start_matches('\u{feff}').lines().zip(1..) {
         let fault = |problem: String| Malformed::new(format!("line {number}"), problem, REMEDY);
         let (data, comment) = split_comment(line);
@@ -50,23 +53,57 @@ pub(super) fn parse(bytes: &[u8]) -> Result<PointCloud, Malformed> {
         }
         let [x, y, z, r, g, b] = values;
         if count == 6 {
-            let is_byte = |c: &f64| c.fract() == 0.0 && (0.0..=255.0).contains(c);
-            if let Some(wrong) = [r, g, b].iter().find(|c| !is_byte(c)) {
-                return Err(fault(format!(
-                    "{wrong} in columns 4 to 6 is no colour (a normal?)"
-                )));
-            }
-            cloud
-                .colors
-                .get_or_insert_default()
-                .push([r as u8, g as u8, b as u8]);
+            more.push(More {
+                line: number,
+                numbers: [r, g, b],
+            });
         }
         cloud.x.push(x as f32);
         cloud.y.push(y as f32);
         cloud.z.push(z as f32);
     }
+    cloud.colors = colors(&more)?;
     cloud.size = size.filter(|&(width, height)| width.checked_mul(height) == Some(cloud.len()));
     Ok(cloud)
+}
+
+/// What stands behind a point.
+struct More {
+    line: usize,
+    numbers: [f64; 3],
+}
+
+/// How far the length of a normal may be from 1: three decimals are written of some.
+const NORMAL_TOLERANCE: f64 = 0.01;
+
+/// The colours behind the points; `None` where there is nothing, or normals.
+fn colors(more: &[More]) -> Result<Option<Vec<[u8; 3]>>, Malformed> {
+    let is_normal = |m: &More| {
+        let length = m.numbers.iter().map(|c| c * c).sum::<f64>().sqrt();
+        (length - 1.0).abs() <= NORMAL_TOLERANCE
+    };
+    if more.iter().all(is_normal) {
+        return Ok(None);
+    }
+    let is_byte = |c: &f64| c.fract() == 0.0 && (0.0..=255.0).contains(c);
+    let is_fraction = |c: &f64| (0.0..=1.0).contains(c);
+    let all = |is: &dyn Fn(&f64) -> bool| more.iter().all(|m| m.numbers.iter().all(is));
+    let kind = if all(&is_byte) {
+        ChannelKind::Byte
+    } else if all(&is_fraction) {
+        ChannelKind::Fraction
+    } else {
+        let wrong = more
+            .iter()
+            .find_map(|m| Some((m.line, m.numbers.iter().find(|c| !is_byte(c))?)));
+        let (line, wrong) = wrong.unwrap_or((0, &f64::NAN));
+        let problem = format!(
+            "{wrong} in columns 4 to 6 is no colour, and they are not the unit vectors that normals are"
+        );
+        return Err(Malformed::new(format!("line {line}"), problem, REMEDY));
+    };
+    let raw: Vec<[f32; 3]> = more.iter().map(|m| m.numbers.map(|c| c as f32)).collect();
+    Ok(Some(to_bytes(&raw, [kind; 3])))
 }
 
 fn split_comment(line: &str) -> (&str, Option<&str>) {
@@ -116,6 +153,21 @@ mod tests {
         assert_eq!(cloud.colors, None);
         let colored = parse(b"1 2 3 255 0 7\n").unwrap();
         assert_eq!(colored.colors.unwrap(), [[255, 0, 7]]);
+    }
+
+    #[test]
+    fn normals_are_not_colours_and_fractions_are() {
+        let colors = |text: &str| parse(text.as_bytes()).unwrap().colors;
+        assert_eq!(colors("1 2 3 0 0 1\n1 2 3 0 1 0\n"), None);
+        assert_eq!(colors("1 2 3 0.6 0 -0.8\n1 2 3 0.577 0.577 0.577\n"), None);
+        assert_eq!(
+            colors("1 2 3 0 0 1\n1 2 3 9 1 0\n"),
+            Some(vec![[0, 0, 1], [9, 1, 0]])
+        );
+        assert_eq!(
+            colors("1 2 3 0 0 1\n1 2 3 0.5 0.5 1\n"),
+            Some(vec![[0, 0, 255], [128, 128, 255]])
+        );
     }
 
     #[test]

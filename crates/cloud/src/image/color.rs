@@ -9,7 +9,8 @@ impl ColorImage {
     /// Reads a PNG or a JPEG, recognised by content.
     ///
     /// Grey, palette and 16-bit PNGs become 8-bit RGB; an alpha channel is dropped.
-    /// A JPEG's EXIF orientation is not applied: depth would not follow it.
+    /// The orientation in EXIF data is not applied, since depth would not follow it; see
+    /// [`ColorImage::turned_by_exif`].
     ///
     /// # Errors
     ///
@@ -45,9 +46,9 @@ impl ColorImage {
 }
 
 pub(super) fn parse_color(bytes: &[u8]) -> Result<ColorImage, Malformed> {
-    if bytes.starts_with(PNG) {
+    if png::is(bytes) {
         png::parse_color(bytes)
-    } else if bytes.starts_with(JPEG) {
+    } else if jpeg::is(bytes) {
         jpeg::parse(bytes)
     } else {
         Err(neither())
@@ -56,17 +57,14 @@ pub(super) fn parse_color(bytes: &[u8]) -> Result<ColorImage, Malformed> {
 
 /// Width and height that the header states.
 pub(super) fn parse_size(bytes: &[u8]) -> Result<(usize, usize), Malformed> {
-    if bytes.starts_with(PNG) {
+    if png::is(bytes) {
         png::parse_size(bytes)
-    } else if bytes.starts_with(JPEG) {
+    } else if jpeg::is(bytes) {
         jpeg::parse_size(bytes)
     } else {
         Err(neither())
     }
 }
-
-const PNG: &[u8] = b"\x89PNG";
-const JPEG: &[u8] = b"\xff\xd8";
 
 fn neither() -> Malformed {
     Malformed::new(

@@ -35,6 +35,17 @@ pub(super) fn parse(bytes: &[u8]) -> Result<ColorImage, Malformed> {
     })
 }
 
+/// Whether a file begins as a JPEG does.
+pub(super) fn is(bytes: &[u8]) -> bool {
+    bytes.starts_with(b"\xff\xd8")
+}
+
+/// The EXIF data, where there are any.
+pub(super) fn exif(bytes: &[u8]) -> Result<Option<Vec<u8>>, Malformed> {
+    let (decoder, _) = open(bytes)?;
+    Ok(decoder.exif().cloned())
+}
+
 pub(super) fn parse_size(bytes: &[u8]) -> Result<(usize, usize), Malformed> {
     open(bytes).map(|(_, size)| size)
 }

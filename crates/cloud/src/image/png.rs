@@ -44,6 +44,21 @@ fn pixel_bytes(reader: &mut PngReader<'_>) -> Result<Vec<u8>, Malformed> {
     Ok(data)
 }
 
+/// Whether a file begins as a PNG does.
+pub(super) fn is(bytes: &[u8]) -> bool {
+    bytes.starts_with(b"\x89PNG")
+}
+
+/// The EXIF data before the pixels, where there are any.
+pub(super) fn exif(bytes: &[u8]) -> Result<Option<Vec<u8>>, Malformed> {
+    let reader = open(bytes, Transformations::IDENTITY)?;
+    Ok(reader
+        .info()
+        .exif_metadata
+        .as_ref()
+        .map(|exif| exif.to_vec()))
+}
+
 pub(super) fn parse_size(bytes: &[u8]) -> Result<(usize, usize), Malformed> {
     let reader = open(bytes, Transformations::IDENTITY)?;
     Ok((reader.info().width as usize, reader.info().height as usize))

@@ -1,6 +1,6 @@
 //! The real frames beside the repository, where they are.
 
-use pomona_cloud::{CloudFormat, DepthPoints, Frame, PointCloud};
+use pomona_cloud::{BoxChoice, BoxImage, CloudFormat, DepthPoints, Frame, PointCloud, read_boxes};
 use std::path::PathBuf;
 
 fn shared(name: &str) -> Option<PathBuf> {
@@ -74,7 +74,9 @@ fn real_jpegs_and_their_yolo_boxes_read() {
         assert_eq!((image.width, image.height), (416, 416));
         let name = path.with_extension("txt");
         let labels = tiles.join("labels").join(name.file_name().unwrap());
-        let boxes = pomona_cloud::read_boxes(labels, 416, 416).unwrap();
+        let boxes = read_boxes(labels, &BoxImage::new(416, 416), &BoxChoice::default())
+            .unwrap()
+            .value;
         assert!(boxes.iter().all(|b| b.width() > 0.0 && b.score == 1.0));
     }
 }

@@ -12,7 +12,7 @@ impl Collector {
     pub(super) fn new(decoder: &Decoder) -> Self {
         Self {
             detections: Vec::new(),
-            class: decoder.class,
+            class: decoder.wanted.first().copied().unwrap_or_default(),
             threshold: decoder.threshold,
         }
     }

@@ -10,9 +10,14 @@ pub(crate) struct Decoder {
     pub(crate) stated: bool,
     /// Width and height of the input in pixels.
     pub(crate) input: [usize; 2],
-    pub(crate) class: usize,
+    /// The classes that count; the boxes of all of them get the first one's number.
+    pub(crate) wanted: Vec<usize>,
+    /// Whether neither a choice nor a name says that it is these.
+    pub(crate) class_is_guess: bool,
     /// The score threshold.
     pub(crate) threshold: f64,
+    /// Numbers of a row behind those of the boxes and classes, for a mask or key points, where the model has names.
+    pub(crate) has_more: bool,
     /// Number of classes, where they have names.
     pub(crate) classes: Option<usize>,
     pub(crate) strides: Option<Vec<usize>>,
@@ -43,6 +48,23 @@ impl Decoder {
                 "name every class of the model in `classes`, in its order, or state its `family`",
             ));
         }
-        classes::check(self.class, Some(count))
+        self.wanted
+            .iter()
+            .try_for_each(|&class| classes::check(class, Some(count)))
+    }
+
+    /// The best score of the classes that count, by that of each.
+    pub(super) fn best(&self, score: impl Fn(usize) -> f32) -> f32 {
+        let scores = self.wanted.iter().map(|&class| score(class));
+        scores.fold(f32::NEG_INFINITY, f32::max)
+    }
+
+    /// How many of so many numbers to a row are scores of classes: the rest behind them are of a mask or key points.
+    pub(super) fn class_columns(&self, columns: usize, before: usize) -> usize {
+        let all = columns.saturating_sub(before);
+        match self.classes {
+            Some(named) if self.has_more && named < all => named,
+            _ => all,
+        }
     }
 }

@@ -1,31 +1,38 @@
 use super::{
-    grids::{GRIDS, USUAL_STRIDES, cells},
+    end_to_end,
+    grids::{USUAL_STRIDES, cells, on_usual_grid},
     table::rows_output,
     yolov3, yolov3_nms, yolov5, yolov8,
 };
-use crate::{description::ModelDescription, family::Family};
+use crate::{
+    description::ModelDescription,
+    family::Family,
+    metadata::{Metadata, Task},
+};
 use pomona_network::{Malformed, Port};
 
 /// The family of a network with these inputs and outputs.
 ///
 /// `input` is its width and height in pixels, where they are known. Two inputs and three outputs are the ONNX model
 /// zoo's `YOLOv3`. An output with three axes is recognised by its number of rows: with as many as the grids have cells
-/// along its last axis it is `YOLOv8`, along its middle axis YOLOX, and with three times as many `YOLOv5`. Outputs of
-/// four or five axes alone are `YOLOv3`'s grids.
+/// along its last axis it is `YOLOv8`, along its middle axis YOLOX, and with three times as many `YOLOv5`; with rows of
+/// six numbers and none of these it suppresses its boxes itself. Outputs of four or five axes alone are `YOLOv3`'s grids.
 pub(crate) fn recognise(
     inputs: &[Port],
     outputs: &[Port],
     input: Option<[usize; 2]>,
     description: &ModelDescription,
+    metadata: &Metadata,
 ) -> Result<Family, Malformed> {
     if let Some(family) = description.family {
         return Ok(family);
     }
+    metadata.check_task()?;
     if inputs.len() == 2 && yolov3_nms::roles(outputs).is_some() {
         return Ok(Family::YoloV3Nms);
     }
     if let Some(k) = rows_output(outputs) {
-        return rows_family(&outputs[k], input, description);
+        return rows_family(&outputs[k], input, description, metadata);
     }
     let grid = |port: &Port| matches!(port.shape.len(), 4 | 5);
     if !outputs.is_empty() && outputs.iter().all(grid) {
@@ -43,6 +50,7 @@ fn rows_family(
     output: &Port,
     input: Option<[usize; 2]>,
     description: &ModelDescription,
+    metadata: &Metadata,
 ) -> Result<Family, Malformed> {
     let unknown = |problem: &str| {
         let size = input.map_or_else(String::new, |[w, h]| format!(" of a {w}x{h} input"));
@@ -53,8 +61,7 @@ fn rows_family(
     };
     let grids = description.strides.as_deref();
     let on_grid = |rows: usize, times: usize| {
-        let fits = |strides| input.is_some_and(|input| times * cells(input, strides) == rows);
-        grids.map_or_else(|| GRIDS.iter().any(|grid| fits(grid)), fits)
+        input.is_some_and(|input| on_usual_grid(rows, times, input, grids))
     };
     let yolox = |rows: usize| {
         input.is_some_and(|input| cells(input, grids.unwrap_or(USUAL_STRIDES)) == rows)
@@ -62,7 +69,12 @@ fn rows_family(
     let classes = description.classes.as_ref().map(Vec::len);
     let boxes_only =
         |columns: usize| classes.is_some_and(|c| columns == yolov8::BEFORE_CLASSES + c);
+    let suppressed = |columns: usize| {
+        columns == end_to_end::COLUMNS
+            || (metadata.task == Task::BoxesAndMore && columns > end_to_end::COLUMNS)
+    };
     match output.shape[1..] {
+        [_, Some(columns)] if metadata.end_to_end && suppressed(columns) => Ok(Family::EndToEnd),
         [Some(columns), Some(rows)] if on_grid(rows, 1) && columns > yolov8::BEFORE_CLASSES => {
             Ok(Family::YoloV8)
         }
@@ -74,6 +86,15 @@ fn rows_family(
         }
         [Some(rows), Some(columns)] if on_grid(rows, 3) && columns >= yolov5::BEFORE_CLASSES => {
             Ok(Family::YoloV5)
+        }
+        [Some(rows), Some(end_to_end::COLUMNS)]
+            if input.is_some() || rows == end_to_end::USUAL_ROWS =>
+        {
+            Ok(Family::EndToEnd)
+        }
+        // Neither box, objectness and classes nor box and classes are six numbers.
+        [None, Some(end_to_end::COLUMNS)] if classes.is_some_and(|c| c != 1 && c != 2) => {
+            Ok(Family::EndToEnd)
         }
         // YOLOX's own export leaves no axis open but the batch.
         [None, Some(columns)] if boxes_only(columns) => Ok(Family::YoloV8),
@@ -93,8 +114,20 @@ pub(crate) fn class_count(
     outputs: &[Port],
     input: [usize; 2],
     description: &ModelDescription,
+    metadata: &Metadata,
 ) -> Option<usize> {
+    if let (Some(named), Task::BoxesAndMore) = (&description.classes, &metadata.task) {
+        return Some(named.len());
+    }
+    let is_open = |port: &Port| {
+        port.shape.get(1) == Some(&None) && port.shape.get(2) == Some(&Some(end_to_end::COLUMNS))
+    };
+    if description.family.is_none() && rows_output(outputs).is_some_and(|k| is_open(&outputs[k])) {
+        // It may turn out to suppress its boxes itself, with any number of classes.
+        return None;
+    }
     match family {
+        Family::EndToEnd => None,
         Family::YoloV5 | Family::YoloX => {
             let columns = (*outputs[rows_output(outputs)?].shape.last()?)?;
             Some(columns.checked_sub(yolov5::BEFORE_CLASSES)?.max(1))

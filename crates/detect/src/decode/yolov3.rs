@@ -163,7 +163,7 @@ pub(super) fn decode(decoder: &Decoder, outputs: &[Tensor]) -> Result<Vec<Detect
     }
     let mut found = Collector::new(decoder);
     for ((head, tensor), anchors) in heads.iter().zip(anchors.chunks_exact(per_cell)) {
-        decode_head(head, &tensor.data, anchors, decoder.class, &mut found);
+        decode_head(head, &tensor.data, anchors, decoder, &mut found);
     }
     Ok(found.detections)
 }
@@ -173,7 +173,7 @@ fn decode_head(
     head: &Head,
     data: &[f32],
     anchors: &[[f32; 2]],
-    class: usize,
+    decoder: &Decoder,
     found: &mut Collector,
 ) {
     let [anchor_step, number_step, row_step, column_step] = head.steps;
@@ -192,7 +192,8 @@ fn decode_head(
                     (sigmoid(number(1)) + v as f32) * stride,
                 ];
                 let size = [number(2).exp() * anchor[0], number(3).exp() * anchor[1]];
-                let score = objectness * sigmoid(number(BEFORE_CLASSES + class));
+                let best = decoder.best(|class| number(BEFORE_CLASSES + class));
+                let score = objectness * sigmoid(best);
                 found.add_centred([centre[0], centre[1], size[0], size[1]], score);
             }
         }

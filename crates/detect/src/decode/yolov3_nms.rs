@@ -59,7 +59,7 @@ pub(super) fn decode(decoder: &Decoder, outputs: &[Tensor]) -> Result<Vec<Detect
         let [Some(0), Some(class), Some(row)] = [0, 1, 2].map(|k| whole(triple[k])) else {
             continue;
         };
-        if class != decoder.class || row >= rows {
+        if !decoder.wanted.contains(&class) || row >= rows {
             continue;
         }
         let corner = |k: usize| f64::from(boxes.data[row * 4 + k]);

@@ -29,7 +29,7 @@ pub(super) fn decode(decoder: &Decoder, outputs: &[Tensor]) -> Result<Vec<Detect
         return Err(Malformed::new(place, problem, "state the model's `family`"));
     }
     // Without a column for a class, the objectness is the score.
-    let classes = table.columns - BEFORE_CLASSES;
+    let classes = decoder.class_columns(table.columns, BEFORE_CLASSES);
     decoder.check_classes(&place, classes.max(1))?;
     if !decoder.stated && table.rows == cells(decoder.input, USUAL_STRIDES) {
         return Err(Malformed::new(
@@ -51,7 +51,7 @@ pub(super) fn decode(decoder: &Decoder, outputs: &[Tensor]) -> Result<Vec<Detect
         let class = if classes == 0 {
             1.0
         } else {
-            table.get(row, BEFORE_CLASSES + decoder.class)
+            decoder.best(|class| table.get(row, BEFORE_CLASSES + class))
         };
         let [x, y, w, h] = table.first_four(row);
         found.add_centred(

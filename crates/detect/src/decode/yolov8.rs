@@ -29,11 +29,12 @@ pub(super) fn decode(decoder: &Decoder, outputs: &[Tensor]) -> Result<Vec<Detect
         );
         return Err(Malformed::new(place, problem, "state the model's `family`"));
     }
-    decoder.check_classes(&place, table.columns - BEFORE_CLASSES)?;
+    let classes = decoder.class_columns(table.columns, BEFORE_CLASSES);
+    decoder.check_classes(&place, classes)?;
     let [width, height] = yolov5::scale(decoder, &table);
     let mut found = Collector::new(decoder);
     for row in 0..table.rows {
-        let score = table.get(row, BEFORE_CLASSES + decoder.class);
+        let score = decoder.best(|class| table.get(row, BEFORE_CLASSES + class));
         if found.counts(score) {
             let [x, y, w, h] = table.first_four(row);
             found.add_centred([x * width, y * height, w * width, h * height], score);

@@ -31,13 +31,22 @@ pub(super) fn decode(decoder: &Decoder, outputs: &[Tensor]) -> Result<Vec<Detect
         ));
     }
     let mut found = Collector::new(decoder);
+    if is_decoded(&table, &found) {
+        for row in 0..table.rows {
+            let objectness = table.get(row, OBJECTNESS);
+            let best = decoder.best(|class| table.get(row, BEFORE_CLASSES + class));
+            found.add_centred(table.first_four(row), objectness * best);
+        }
+        return Ok(found.detections);
+    }
     let mut row = 0;
     for &stride in strides {
         for v in 0..height.div_ceil(stride) {
             for u in 0..width.div_ceil(stride) {
                 let objectness = table.get(row, OBJECTNESS);
                 if found.counts(objectness) {
-                    let score = objectness * table.get(row, BEFORE_CLASSES + decoder.class);
+                    let best = decoder.best(|class| table.get(row, BEFORE_CLASSES + class));
+                    let score = objectness * best;
                     let [x, y, w, h] = table.first_four(row);
                     let stride = stride as f32;
                     let centre = [(x + u as f32) * stride, (y + v as f32) * stride];
@@ -49,4 +58,17 @@ pub(super) fn decode(decoder: &Decoder, outputs: &[Tensor]) -> Result<Vec<Detect
         }
     }
     Ok(found.detections)
+}
+
+/// Largest number of a box in units of the stride: a centre lies in its cell or near it, and sides are logarithms of at
+/// most some dozens of cells.
+const LARGEST_RELATIVE: f32 = 16.0;
+
+/// Whether the boxes are in pixels of the input already, as the likely ones show: fruit that is larger than some pixels
+/// or further than that from the corner of the image has larger numbers than any in units of the stride.
+fn is_decoded(table: &Table<'_>, found: &Collector) -> bool {
+    let likely = (0..table.rows).filter(|&row| found.counts(table.get(row, OBJECTNESS)));
+    likely
+        .into_iter()
+        .any(|row| table.first_four(row).iter().any(|x| *x > LARGEST_RELATIVE))
 }

@@ -105,6 +105,26 @@ fn a_cut_box_does_not_spoil_a_whole_one() {
 }
 
 #[test]
+fn a_fragment_inside_a_larger_box_goes_though_it_ends_before_the_border() {
+    // The left tile shows three quarters of an apple, and its box ends eight pixels before the tile does.
+    let apple = seen([35.0, 10.0, 75.0, 50.0], 0.6);
+    let fragment = seen([36.0, 20.0, 50.0, 40.0], 0.9);
+    let views = [view(LEFT, 1.0, &[fragment]), view(WHOLE, 1.0, &[apple])];
+    assert_eq!(fuse(&views, IMAGE, 0.45), [apple]);
+    // A small apple before a large one: whoever shows the large one shows it too.
+    let views = [
+        view(LEFT, 1.0, &[fragment]),
+        view(WHOLE, 1.0, &[apple, fragment]),
+    ];
+    assert_eq!(fuse(&views, IMAGE, 0.45).len(), 2);
+    // And one in a tile that shows the large one to its end.
+    let inner = seen([66.0, 20.0, 74.0, 40.0], 0.9);
+    let large = seen([62.0, 10.0, 98.0, 50.0], 0.6);
+    let views = [view(RIGHT, 1.0, &[inner]), view(WHOLE, 1.0, &[large])];
+    assert_eq!(fuse(&views, IMAGE, 0.45).len(), 2);
+}
+
+#[test]
 fn parts_without_a_whole_are_joined() {
     let parts = [
         view(LEFT, 1.0, &[seen([21.0, 6.0, 60.0, 54.0], 0.7)]),

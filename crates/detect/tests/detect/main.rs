@@ -5,6 +5,7 @@
 mod any_network;
 #[cfg(feature = "embedded")]
 mod built_in;
+mod end_to_end;
 mod fake_network;
 mod families;
 mod hostile;

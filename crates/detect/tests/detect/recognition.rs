@@ -54,7 +54,7 @@ const OPEN: [usize; 4] = [0, 3, 0, 0];
 
 #[test]
 fn families_are_told_apart() {
-    let told: [(&[usize], Outputs<'_>, Family); 19] = [
+    let told: [(&[usize], Outputs<'_>, Family); 22] = [
         (&SQUARE, &[&[1, 3549, 85]], Family::YoloX),
         (&SQUARE, &[&[0, 3549, 6]], Family::YoloX),
         (&[1, 3, 480, 640], &[&[1, 6300, 85]], Family::YoloX),
@@ -90,6 +90,9 @@ fn families_are_told_apart() {
         ),
         (&[1, 3, 320, 320], &[&[1, 2100, 85]], Family::YoloX),
         (&[1, 3, 320, 320], &[&[1, 6300, 85]], Family::YoloV5),
+        (&SQUARE, &[&[1, 300, 6]], Family::EndToEnd),
+        (&OPEN, &[&[1, 300, 6]], Family::EndToEnd),
+        (&[1, 3, 640, 640], &[&[0, 100, 6]], Family::EndToEnd),
     ];
     for (input, outputs, expected) in told {
         assert_eq!(family(input, outputs, ""), Ok(expected), "{outputs:?}");
@@ -158,7 +161,7 @@ fn outputs_of_no_family_are_refused() {
     );
     refused(
         &SQUARE,
-        &[&[1, 300, 6]],
+        &[&[1, 300, 7]],
         "",
         &["neither one nor three rows"],
     );

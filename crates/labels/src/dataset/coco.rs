@@ -91,10 +91,12 @@ pub(super) fn read(file: &Path) -> Result<LabelledDataset, LabelsError> {
         ));
     };
     let mut names = BTreeSet::new();
+    let mut turned = Vec::new();
     let mut images = Vec::with_capacity(coco.images.len());
     for image in coco.images {
         let path = place.join(&image.file_name);
         let (width, height) = ColorImage::read_size(&path)?;
+        turned.extend(ColorImage::turned_by_exif(&path)?.map(|warning| (path.clone(), warning)));
         let stated = (image.width, image.height);
         if stated != (0, 0) && stated != (width, height) {
             let problem = format!(
@@ -121,11 +123,9 @@ pub(super) fn read(file: &Path) -> Result<LabelledDataset, LabelsError> {
             ..LabelledImage::new(image.file_name, path, width, height)
         });
     }
-    Ok(LabelledDataset::new(
-        folder_name(file),
-        LabelForm::Coco,
-        images,
-    ))
+    let mut dataset = LabelledDataset::new(folder_name(file), LabelForm::Coco, images);
+    dataset.warnings = turned;
+    Ok(dataset)
 }
 
 /// Where the images of a COCO file may lie: beside it, in `images/`, in a folder named as the file ends

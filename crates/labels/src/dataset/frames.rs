@@ -1,7 +1,7 @@
 use super::images::{LabelForm, LabelledDataset, LabelledImage};
 use super::listing::folder_name;
 use crate::error::LabelsError;
-use pomona_cloud::{ColorImage, Frame, read_labels};
+use pomona_cloud::{BoxImage, ColorImage, Frame, read_labels};
 use std::path::{Path, PathBuf};
 
 /// Whether a folder is a frame's, with boxes or without.
@@ -33,8 +33,14 @@ pub(super) fn read(folder: &Path, folders: &[PathBuf]) -> Result<LabelledDataset
             continue;
         };
         let (width, height) = ColorImage::read_size(&path)?;
+        let turned = ColorImage::turned_by_exif(&path)?;
+        dataset
+            .warnings
+            .extend(turned.map(|warning| (path.clone(), warning)));
+        let image = BoxImage::new(width, height).at(&path);
+        let labels = dataset.note(&boxes, read_labels(&boxes, &image)?);
         dataset.images.push(LabelledImage {
-            boxes: read_labels(boxes, width, height)?,
+            boxes: labels,
             ..LabelledImage::new(folder_name(frame), path, width, height)
         });
     }

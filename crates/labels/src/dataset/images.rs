@@ -1,8 +1,8 @@
-use pomona_cloud::{LabelKind, LabelledBox};
+use pomona_cloud::{ImageKey, LabelKind, LabelledBox, Warning, WithWarnings};
 use pomona_detect::ClassChoice;
 use serde::Serialize;
 use std::collections::BTreeSet;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Images with labels, in the order of their names.
 ///
@@ -27,6 +27,8 @@ pub struct LabelledDataset {
     pub frames_without_boxes: usize,
     /// Numbers of the classes whose labels count alike; empty where the labels have names only.
     pub classes: BTreeSet<u64>,
+    /// What is doubtful about the labels, each with its file.
+    pub warnings: Vec<(PathBuf, Warning)>,
 }
 
 /// How labels are stored.
@@ -57,8 +59,8 @@ pub struct LabelledImage {
     pub width: usize,
     /// Height in pixels.
     pub height: usize,
-    /// Its number in a COCO file.
-    pub coco_id: Option<u64>,
+    /// What identifies it in a COCO file.
+    pub coco_id: Option<ImageKey>,
     /// The boxes that are labelled in it.
     pub boxes: Vec<LabelledBox>,
 }
@@ -92,7 +94,16 @@ impl LabelledDataset {
             without_label_file: 0,
             frames_without_boxes: 0,
             classes: BTreeSet::new(),
+            warnings: Vec::new(),
         }
+    }
+
+    /// What was read from a file, whose warnings are kept.
+    pub(super) fn note<T>(&mut self, file: &Path, read: WithWarnings<T>) -> T {
+        let warnings = read.warnings.into_iter();
+        self.warnings
+            .extend(warnings.map(|warning| (file.to_owned(), warning)));
+        read.value
     }
 
     /// Marks the boxes whose name or class is `name` as difficult, so that they are ignored in matching; a `*` at its

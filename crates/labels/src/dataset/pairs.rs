@@ -1,7 +1,7 @@
 use super::images::{LabelForm, LabelledDataset, LabelledImage};
 use super::listing::{files_below, folder_name, is_about_labels, is_image, is_label, name_below};
 use crate::error::LabelsError;
-use pomona_cloud::{ColorImage, LabelledBox, read_labels};
+use pomona_cloud::{BoxImage, ColorImage, LabelledBox, read_labels};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -65,8 +65,15 @@ pub(super) fn read(
     let mut dataset = LabelledDataset::new(folder_name(folder), form, Vec::new());
     for (stem, path) in image_of {
         let (width, height) = ColorImage::read_size(&path)?;
+        let turned = ColorImage::turned_by_exif(&path)?;
+        dataset
+            .warnings
+            .extend(turned.map(|warning| (path.clone(), warning)));
         let mut labels = match label_of.remove(&stem) {
-            Some(file) => read_labels(file, width, height)?,
+            Some(file) => {
+                let image = BoxImage::new(width, height).at(&path);
+                dataset.note(&file, read_labels(&file, &image)?)
+            }
             None if label_folder.is_some() => {
                 dataset.without_label_file += 1;
                 Vec::new()

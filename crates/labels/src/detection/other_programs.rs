@@ -1,7 +1,7 @@
-use crate::dataset::LabelledDataset;
 use crate::dataset::listing::{files_below, is_about_labels, is_label};
+use crate::dataset::{LabelledDataset, LabelledImage};
 use crate::error::LabelsError;
-use pomona_cloud::{CocoDataset, ImageKey, LabelledBox, read_coco_results, read_labels};
+use pomona_cloud::{BoxImage, CocoDataset, ImageKey, LabelledBox, read_coco_results, read_labels};
 use pomona_detect::{ClassChoice, Detection};
 use std::collections::HashMap;
 use std::path::Path;
@@ -89,8 +89,14 @@ fn from_folder(
                 "keep one of the two",
             ));
         }
-        let (width, height) = (dataset.images[image].width, dataset.images[image].height);
-        boxes[image] = read_labels(file, width, height)?;
+        let LabelledImage {
+            width,
+            height,
+            path,
+            ..
+        } = &dataset.images[image];
+        let about = BoxImage::new(*width, *height).at(path);
+        boxes[image] = read_labels(file, &about)?.value;
         any = true;
     }
     if any {
@@ -128,15 +134,12 @@ fn from_file(
         return Ok(());
     }
     for result in read_coco_results(path)? {
-        let at = match &result.image {
-            ImageKey::Number(number) => index.numbered(*number),
-            ImageKey::Name(name) => index.find(name),
-        };
+        let key = &result.image;
+        let at = index
+            .identified(key)
+            .or_else(|| index.find(&key.to_string()));
         let Some(at) = at else {
-            return Err(unknown(&match result.image {
-                ImageKey::Number(number) => number.to_string(),
-                ImageKey::Name(name) => name,
-            }));
+            return Err(unknown(&key.to_string()));
         };
         boxes[at].push(result.label);
     }
@@ -146,17 +149,17 @@ fn from_file(
 /// Images by their names, with or without path and extension; ambiguous names are left out.
 struct ImageIndex {
     names: HashMap<String, Option<usize>>,
-    numbers: HashMap<u64, usize>,
+    keys: HashMap<ImageKey, usize>,
 }
 
 impl ImageIndex {
     fn new(dataset: &LabelledDataset) -> Self {
         let mut names: HashMap<String, Option<usize>> = HashMap::new();
-        let mut numbers = HashMap::new();
+        let mut keys = HashMap::new();
         // A whole path takes precedence over a short name.
         for (at, image) in dataset.images.iter().enumerate() {
             names.insert(image.name.clone(), Some(at));
-            numbers.extend(image.coco_id.map(|id| (id, at)));
+            keys.extend(image.coco_id.clone().map(|id| (id, at)));
         }
         for (at, image) in dataset.images.iter().enumerate() {
             let file = image.name.rsplit('/').next().unwrap_or(&image.name);
@@ -171,7 +174,7 @@ impl ImageIndex {
                 }
             }
         }
-        Self { names, numbers }
+        Self { names, keys }
     }
 
     fn find(&self, name: &str) -> Option<usize> {
@@ -189,9 +192,9 @@ impl ImageIndex {
             .find_map(|name| self.names.get(name).copied().flatten())
     }
 
-    fn numbered(&self, number: u64) -> Option<usize> {
-        let by_name = || self.find(&number.to_string());
-        self.numbers.get(&number).copied().or_else(by_name)
+    /// By what identifies it in a COCO file.
+    fn identified(&self, key: &ImageKey) -> Option<usize> {
+        self.keys.get(key).copied()
     }
 }
 

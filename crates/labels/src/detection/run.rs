@@ -10,7 +10,7 @@ use crate::dataset::{LabelledDataset, LabelledImage};
 use crate::error::LabelsError;
 use crate::resampling::Resampled;
 use pomona_cloud::{ColorImage, LabelKind};
-use pomona_detect::{Detection, Detector};
+use pomona_detect::{DetectError, Detection, Detector};
 use pomona_statistics::{Proportion, RESAMPLES};
 use rayon::prelude::*;
 
@@ -79,7 +79,7 @@ pub fn evaluate_detections(
         .par_iter()
         .enumerate()
         .map(|(number, image)| {
-            let matched = matched(image, number, sources);
+            let matched = matched(image, number, sources, options.threshold);
             done();
             matched
         })
@@ -131,6 +131,7 @@ fn matched(
     image: &LabelledImage,
     number: usize,
     sources: &[DetectionSource<'_>],
+    threshold: f64,
 ) -> Result<Vec<MatchedImage>, LabelsError> {
     let needed = sources
         .iter()
@@ -140,12 +141,14 @@ fn matched(
         .iter()
         .map(|source| {
             let detections = match (source, &pixels) {
-                (DetectionSource::Detector { detector, .. }, Some(pixels)) => detector
-                    .detect(pixels)
-                    .map_err(|source| LabelsError::Detection {
-                        image: image.path.clone(),
-                        source,
-                    })?,
+                (DetectionSource::Detector { detector, .. }, Some(pixels)) => {
+                    detected(*detector, pixels, threshold).map_err(|source| {
+                        LabelsError::Detection {
+                            image: image.path.clone(),
+                            source,
+                        }
+                    })?
+                }
                 (DetectionSource::Boxes { detections, .. }, _) => {
                     detections.get(number).cloned().unwrap_or_default()
                 }
@@ -155,6 +158,20 @@ fn matched(
             Ok(MatchedImage::new(&image.boxes, detections))
         })
         .collect()
+}
+
+/// What the detector gives at the threshold, as whoever uses it at that threshold has it, and behind that its boxes of
+/// lower scores, for the rest of the curve.
+fn detected(
+    detector: &dyn Detector,
+    pixels: &ColorImage,
+    threshold: f64,
+) -> Result<Vec<Detection>, DetectError> {
+    let mut found = detector.detect_at(pixels, &[threshold, 0.0])?.into_iter();
+    let mut detections = found.next().unwrap_or_default();
+    let unsure = found.next().unwrap_or_default().into_iter();
+    detections.extend(unsure.filter(|d| d.score < threshold));
+    Ok(detections)
 }
 
 fn summary(dataset: &LabelledDataset) -> DatasetSummary {

@@ -4,7 +4,7 @@ use super::mask::{MaskPixels, TruthMask};
 use super::skeleton::center_line;
 use crate::error::LabelsError;
 use crate::strokes::{ImageStrokes, PathSample, Stroke, StrokeClass, StrokePoint};
-use pomona_cloud::{Frame, PixelBox, read_boxes};
+use pomona_cloud::{BoxChoice, BoxImage, Frame, PixelBox, read_boxes};
 
 /// Width in pixels of the band along an edge of wood that is neither wood nor not: a hand draws no better.
 const UNSURE_BAND: f64 = 1.0;
@@ -201,7 +201,8 @@ fn discs(image: &SegmentationImage, size: [usize; 2], radii: f64) -> Result<Disc
         let remedy = "count whole images, or give frames with boxes";
         return Err(LabelsError::malformed(&image.path, &problem, remedy));
     };
-    let boxes = read_boxes(path, size[0], size[1])?;
+    let about = BoxImage::new(size[0], size[1]).at(&image.path);
+    let boxes = read_boxes(path, &about, &BoxChoice::default())?.value;
     let disc = |b: &PixelBox| {
         let middle = [
             f64::midpoint(b.x_min, b.x_max),

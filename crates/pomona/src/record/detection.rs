@@ -28,6 +28,9 @@ pub struct DetectionSummaryRecord {
     /// How the model's outputs were read.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub family: Option<String>,
+    /// Name of the class that counts, or the names of several.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub class_name: Option<String>,
     /// What ran the network: `onnxruntime` or `embedded`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub runtime: Option<String>,
@@ -97,6 +100,7 @@ impl From<&DetectionSummary> for DetectionSummaryRecord {
         Self {
             name: detector.name.clone(),
             family: detector.family.clone(),
+            class_name: detector.class_name.clone(),
             runtime: runtime.map(|r| r.name.clone()),
             version: runtime.map(|r| r.version.clone()),
             library: runtime.and_then(|r| r.library.clone()),

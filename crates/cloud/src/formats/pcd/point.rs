@@ -1,5 +1,6 @@
 //! One point of a PCD file of any layout, as `pcd-rs` reads and writes it.
 
+use crate::formats::channels::ChannelKind;
 use pcd_rs::{Error, FieldDef, PcdDeserialize, PcdSerialize, Result, Schema, ValueKind};
 use std::io::{BufRead, Seek, Write};
 
@@ -7,7 +8,8 @@ use std::io::{BufRead, Seek, Write};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct PcdPoint {
     pub(super) position: [f32; 3],
-    pub(super) color: [u8; 3],
+    /// As the file has it.
+    pub(super) color: [f32; 3],
 }
 
 /// Where a field's colour goes: all of the colour, or one channel.
@@ -24,17 +26,37 @@ pub(super) fn color_channel(field: &FieldDef) -> Option<Channel> {
     }
     match (field.name.as_str(), field.kind) {
         ("rgb" | "rgba", ValueKind::F32 | ValueKind::U32 | ValueKind::I32) => Some(Channel::Packed),
-        ("r" | "red", ValueKind::U8) => Some(Channel::Single(0)),
-        ("g" | "green", ValueKind::U8) => Some(Channel::Single(1)),
-        ("b" | "blue", ValueKind::U8) => Some(Channel::Single(2)),
+        ("r" | "red", _) => Some(Channel::Single(0)),
+        ("g" | "green", _) => Some(Channel::Single(1)),
+        ("b" | "blue", _) => Some(Channel::Single(2)),
         _ => None,
     }
+}
+
+/// What the numbers of a point's colour are; `None` where it has none, or not all of it.
+pub(super) fn color_kinds(fields: &[FieldDef]) -> Option<[ChannelKind; 3]> {
+    let mut kinds = [None; 3];
+    for field in fields {
+        match color_channel(field) {
+            Some(Channel::Packed) => return Some([ChannelKind::Byte; 3]),
+            Some(Channel::Single(index)) => {
+                kinds[index] = Some(match field.kind {
+                    ValueKind::F32 | ValueKind::F64 => ChannelKind::Fraction,
+                    ValueKind::U16 => ChannelKind::Wide,
+                    _ => ChannelKind::Byte,
+                });
+            }
+            None => {}
+        }
+    }
+    let [red, green, blue] = kinds;
+    Some([red?, green?, blue?])
 }
 
 impl PcdPoint {
     const NONE: Self = Self {
         position: [f32::NAN; 3],
-        color: [0; 3],
+        color: [0.0; 3],
     };
 
     /// Takes a number of field `field`; `bits` are the four bytes of a packed colour.
@@ -46,16 +68,16 @@ impl PcdPoint {
             _ => match color_channel(field) {
                 Some(Channel::Packed) => {
                     let [_, r, g, b] = bits.to_be_bytes();
-                    self.color = [r, g, b];
+                    self.color = [r, g, b].map(f32::from);
                 }
-                Some(Channel::Single(channel)) => self.color[channel] = value as u8,
+                Some(Channel::Single(channel)) => self.color[channel] = value as f32,
                 None => {}
             },
         }
     }
 
     fn packed(&self) -> u32 {
-        let [r, g, b] = self.color;
+        let [r, g, b] = self.color.map(|channel| channel as u8);
         u32::from_be_bytes([0, r, g, b])
     }
 }

@@ -167,3 +167,23 @@ fn rows_that_do_not_make_up_the_points_are_refused() {
             .contains("HEIGHT 2")
     );
 }
+
+#[test]
+fn separate_channels_are_colours_whatever_their_type() {
+    let colors = |types: &str, body: &str| {
+        let bytes = file(
+            "x y z r g b",
+            "4 4 4 4 4 4",
+            types,
+            1,
+            "ascii",
+            body.as_bytes(),
+        );
+        parse(&bytes).unwrap().colors.unwrap()
+    };
+    assert_eq!(colors("F F F F F F", "1 2 3 1 0 0.5\n"), [[255, 0, 128]]);
+    assert_eq!(colors("F F F F F F", "1 2 3 255 0 7\n"), [[255, 0, 7]]);
+    assert_eq!(colors("F F F U U U", "1 2 3 255 0 7\n"), [[255, 0, 7]]);
+    let range = file("x y z r", "4 4 4 4", "F F F F", 1, "ascii", b"1 2 3 9\n");
+    assert_eq!(parse(&range).unwrap().colors, None);
+}

@@ -136,3 +136,62 @@ fn a_range_scanner_s_size_is_kept_where_it_fits() {
     assert_eq!(with(2), Some((1, 2)));
     assert_eq!(with(3), None);
 }
+
+#[test]
+fn numbers_are_read_by_words_and_lines_may_break_anywhere_between_elements() {
+    let colored = format!("{XYZ}property uchar red\nproperty uchar green\nproperty uchar blue\n");
+    let expected = [[255, 0, 7], [1, 128, 254]];
+    for body in [
+        "0.1 0.2 0.3 \n255 0 7 \n-1.5 2.5 3.5 \n1 128 254 \n",
+        "0.1 0.2 0.3 255 0 7 -1.5 2.5 3.5 1 128 254",
+        "0.1\n0.2\n0.3\n255\n0\n7\n\n-1.5\t2.5\t3.5\n1 128 254\n",
+    ] {
+        let cloud = parse(simple("ascii", 2, &colored, body).as_bytes()).unwrap();
+        assert_eq!(
+            (cloud.x[1], cloud.colors.unwrap()),
+            (-1.5, expected.to_vec()),
+            "{body:?}"
+        );
+    }
+    // A number that no property stands for is not the next point's.
+    for body in ["1 2 3 9\n4 5 6 9\n", "1 2 3\n4 5 6 9\n"] {
+        let fault = parse(simple("ascii", 2, XYZ, body).as_bytes()).unwrap_err();
+        assert!(
+            fault
+                .problem
+                .contains("more numbers than the properties of vertex: x, y, z"),
+            "{fault:?}"
+        );
+    }
+}
+
+#[test]
+fn headers_with_tabs_and_capitals_are_read() {
+    let text = "PLY\nFORMAT ASCII 1.0\nComment By Hand\nelement\tvertex\t1\nproperty\tFLOAT\tX\nPROPERTY float y\n\
+        property float  z\nproperty uchar Red\nproperty uchar Green\nproperty uchar Blue\nend_header\n1\t2\t3\t9\t8\t7\n";
+    let cloud = parse(text.as_bytes()).unwrap();
+    assert_eq!(
+        (cloud.x[0], cloud.z[0], cloud.colors.unwrap()),
+        (1.0, 3.0, vec![[9, 8, 7]])
+    );
+}
+
+#[test]
+fn colours_in_floating_point_are_fractions_or_bytes() {
+    let colored = format!("{XYZ}property float red\nproperty float green\nproperty float blue\n");
+    let colors = |body: &str| {
+        parse(simple("ascii", 1, &colored, body).as_bytes())
+            .unwrap()
+            .colors
+            .unwrap()
+    };
+    assert_eq!(colors("1 2 3 255 0 7\n"), [[255, 0, 7]]);
+    assert_eq!(colors("1 2 3 1 0 0.5\n"), [[255, 0, 128]]);
+    let one = format!("{XYZ}property float red\n");
+    assert_eq!(
+        parse(simple("ascii", 1, &one, "1 2 3 4\n").as_bytes())
+            .unwrap()
+            .colors,
+        None
+    );
+}

@@ -1,5 +1,6 @@
 //! One vertex of a PLY file of any layout.
 
+use crate::formats::channels::ChannelKind;
 use ply_rs_bw::ply::{
     ElementDef, Property, PropertyAccess, PropertyAccessResult, PropertyDef, PropertyType,
     ScalarType,
@@ -9,7 +10,8 @@ use ply_rs_bw::ply::{
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Vertex {
     pub(super) position: [f32; 3],
-    pub(super) color: [u8; 3],
+    /// As the file has it.
+    pub(super) color: [f32; 3],
 }
 
 /// Where a property goes.
@@ -40,44 +42,47 @@ impl Slot {
     }
 }
 
-/// A colour channel as a byte: fractions are of one, 16-bit values of 65535.
-fn channel(value: f64, kind: &ScalarType) -> u8 {
-    match kind {
-        ScalarType::Float | ScalarType::Double => (value * 255.0).round() as u8,
-        ScalarType::UShort => (value / 257.0).round() as u8,
-        _ => value as u8,
+/// What the numbers of a vertex's colour are; `None` where it has none, or not all of it.
+pub(super) fn color_kinds(element: &ElementDef) -> Option<[ChannelKind; 3]> {
+    let mut kinds = [None; 3];
+    for property in element.properties.values() {
+        if let (Some(Slot::Color(index)), PropertyType::Scalar(kind)) =
+            (Slot::of(property), &property.data_type)
+        {
+            kinds[index] = Some(match kind {
+                ScalarType::Float | ScalarType::Double => ChannelKind::Fraction,
+                ScalarType::UShort => ChannelKind::Wide,
+                _ => ChannelKind::Byte,
+            });
+        }
     }
+    let [red, green, blue] = kinds;
+    Some([red?, green?, blue?])
 }
 
 impl Vertex {
-    fn set(&mut self, slot: Slot, value: f64, kind: &ScalarType) {
+    fn set(&mut self, slot: Slot, value: f64) {
         match slot {
             Slot::Axis(axis) => self.position[axis] = value as f32,
-            Slot::Color(index) => self.color[index] = channel(value, kind),
+            Slot::Color(index) => self.color[index] = value as f32,
         }
     }
 
-    /// The element on a line of text; tokens beyond it are left alone.
-    pub(super) fn from_text(line: &str, element: &ElementDef) -> Result<Self, String> {
-        let mut tokens = line.split_ascii_whitespace();
+    /// The element whose numbers `next` gives, by the names of their properties.
+    pub(super) fn from_numbers<E>(
+        element: &ElementDef,
+        next: &mut impl FnMut(&str) -> Result<f64, E>,
+    ) -> Result<Self, E> {
         let mut vertex = Self::new();
         for property in element.properties.values() {
-            let name = &property.name;
-            let mut next = || {
-                let token = tokens
-                    .next()
-                    .ok_or_else(|| format!("ends before property `{name}`"))?;
-                let value = token.parse::<f64>();
-                value.map_err(|_| format!("property `{name}` is `{token}`, not a number"))
-            };
-            let value = next()?;
+            let value = next(&property.name)?;
             match (&property.data_type, Slot::of(property)) {
-                (PropertyType::Scalar(kind), Some(slot)) => vertex.set(slot, value, kind),
+                (PropertyType::Scalar(_), Some(slot)) => vertex.set(slot, value),
                 (PropertyType::Scalar(_), None) => {}
-                // Never more than the line has tokens for.
+                // Never more than the text has.
                 (PropertyType::List(..), _) => {
                     for _ in 0..value as u64 {
-                        next()?;
+                        next(&property.name)?;
                     }
                 }
             }
@@ -90,26 +95,26 @@ impl PropertyAccess for Vertex {
     fn new() -> Self {
         Self {
             position: [f32::NAN; 3],
-            color: [0; 3],
+            color: [0.0; 3],
         }
     }
 
     fn set_property(&mut self, name: &str, property: Property) -> PropertyAccessResult {
-        let (value, kind) = match property {
-            Property::Char(value) => (f64::from(value), ScalarType::Char),
-            Property::UChar(value) => (f64::from(value), ScalarType::UChar),
-            Property::Short(value) => (f64::from(value), ScalarType::Short),
-            Property::UShort(value) => (f64::from(value), ScalarType::UShort),
-            Property::Int(value) => (f64::from(value), ScalarType::Int),
-            Property::UInt(value) => (f64::from(value), ScalarType::UInt),
-            Property::Float(value) => (f64::from(value), ScalarType::Float),
-            Property::Double(value) => (value, ScalarType::Double),
+        let value = match property {
+            Property::Char(value) => f64::from(value),
+            Property::UChar(value) => f64::from(value),
+            Property::Short(value) => f64::from(value),
+            Property::UShort(value) => f64::from(value),
+            Property::Int(value) => f64::from(value),
+            Property::UInt(value) => f64::from(value),
+            Property::Float(value) => f64::from(value),
+            Property::Double(value) => value,
             _ => return PropertyAccessResult::Ignored,
         };
         let Some(slot) = Slot::named(name) else {
             return PropertyAccessResult::Ignored;
         };
-        self.set(slot, value, &kind);
+        self.set(slot, value);
         PropertyAccessResult::Set
     }
 
@@ -122,7 +127,7 @@ impl PropertyAccess for Vertex {
 
     fn get_uchar(&self, name: &str) -> Option<u8> {
         match Slot::named(name)? {
-            Slot::Color(index) => Some(self.color[index]),
+            Slot::Color(index) => Some(self.color[index] as u8),
             Slot::Axis(_) => None,
         }
     }

@@ -76,10 +76,7 @@ fn is_image(path: &Path) -> bool {
 }
 
 fn frame(folder: &Path) -> Option<NamedImage> {
-    let path = Frame::COLOR_FILES
-        .iter()
-        .map(|name| folder.join(name))
-        .find(|path| path.is_file())?;
+    let path = Frame::color_file(folder)?;
     let own = folder.file_name().map(ToOwned::to_owned);
     let name = own.or_else(|| {
         folder

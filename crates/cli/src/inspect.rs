@@ -76,7 +76,7 @@ fn facts_of(path: &Path) -> anyhow::Result<Facts> {
         .unwrap_or_default()
         .to_string_lossy()
         .to_ascii_lowercase();
-    if start.starts_with(b"\x89PNG") || start.starts_with(b"\xff\xd8") {
+    if image::is_image(&start) {
         return image::facts(path, &start);
     }
     if document::is_box_file(path, &start) {
@@ -90,7 +90,7 @@ fn facts_of(path: &Path) -> anyhow::Result<Facts> {
             cloud::facts(path)
         }
         _ => bail!(
-            "{}: not a file that this program knows; it knows frames' folders, PCD, PLY, XYZ, PNG, JPEG, and \
+            "{}: not a file that this program knows; it knows frames' folders, PCD, PLY, XYZ, PNG, JPEG, TIFF, NPY, and \
              JSON, YAML, TOML and XML files of its own",
             path.display()
         ),

@@ -14,7 +14,7 @@ pub enum CloudError {
     #[error(transparent)]
     File(#[from] FileError),
     /// A frame's folder lacks one of its files.
-    #[error("{}: no {expected} in this folder; a frame is color.png|jpg, depth.png and camera.json", .path.display())]
+    #[error("{}: no {expected} in this folder; a frame is color.png|jpg, depth.png|tiff|npy and camera.json", .path.display())]
     MissingFile {
         /// The folder.
         path: PathBuf,

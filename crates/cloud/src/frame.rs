@@ -2,10 +2,10 @@ mod points;
 
 use crate::boxes::validate_all;
 use crate::{
-    BoxChoice, BoxFormat, BoxImage, Camera, CloudError, ColorImage, DepthImage, PixelBox,
-    read_boxes, write_boxes,
+    BoxChoice, BoxFormat, BoxImage, Camera, CloudError, ColorImage, DepthImage, DepthValues,
+    PixelBox, read_boxes, write_boxes,
 };
-use pomona_files::{FileError, Malformed, Warning, temporary_beside};
+use pomona_files::{FileError, Malformed, Warning, WarningCode, temporary_beside};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -69,15 +69,42 @@ impl Frame {
         }
     }
 
-    /// The names of the colour image in a frame's folder; the first that is there is read.
-    pub const COLOR_FILES: [&str; 3] = ["color.png", "color.jpg", "color.jpeg"];
+    /// The names of the colour image in a frame's folder; the first that is there is read, here and below, and capitals
+    /// do not matter.
+    pub const COLOR_FILES: [&str; 6] = [
+        "color.png",
+        "color.jpg",
+        "color.jpeg",
+        "rgb.png",
+        "rgb.jpg",
+        "rgb.jpeg",
+    ];
 
-    /// The names of the file with the boxes; the first that is there is read.
+    /// The names of the depth image.
+    pub const DEPTH_FILES: [&str; 4] = ["depth.png", "depth.tiff", "depth.tif", "depth.npy"];
+
+    /// The names of the file with the boxes.
     pub const BOX_FILES: [&str; 3] = ["boxes.xml", "boxes.json", "boxes.txt"];
 
-    /// Reads a frame's folder: `color.png` or `.jpg`, `depth.png`, `camera.json` (or a ROS
+    /// The colour image in a frame's folder, where there is one.
+    pub fn color_file(dir: impl AsRef<Path>) -> Option<PathBuf> {
+        present(dir.as_ref(), &Self::COLOR_FILES)
+    }
+
+    /// The depth image in a frame's folder, where there is one.
+    pub fn depth_file(dir: impl AsRef<Path>) -> Option<PathBuf> {
+        present(dir.as_ref(), &Self::DEPTH_FILES)
+    }
+
+    /// The box file in a frame's folder, where there is one.
+    pub fn box_file(dir: impl AsRef<Path>) -> Option<PathBuf> {
+        present(dir.as_ref(), &Self::BOX_FILES)
+    }
+
+    /// Reads a frame's folder: `color.png` or `.jpg` (or `rgb`), `depth.png`, `.tiff` or `.npy`, `camera.json` (or a ROS
     /// `camera.yaml`, `camera_info.yaml`, or Open3D's `intrinsic.json`), and
-    /// `boxes.xml`, `.json` or `.txt` where there is one. Of several names the first is read.
+    /// `boxes.xml`, `.json` or `.txt` where there is one. Of several names the first is read. Depth in floating point,
+    /// which is in metres unless the camera states another unit, is rounded to 16 bits.
     ///
     /// Of a box file with several classes the apples are taken, as [`BoxChoice`] has it by default.
     ///
@@ -105,12 +132,33 @@ impl Frame {
         }
         let color_file = required(dir, &Self::COLOR_FILES, "color.png or color.jpg")?;
         let color = ColorImage::read(&color_file)?;
-        let depth = DepthImage::read(required(dir, &["depth.png"], "depth.png")?)?;
-        let camera = Camera::read_with_warnings(required(
+        let depth_file = required(
+            dir,
+            &Self::DEPTH_FILES,
+            "depth.png (or depth.tiff, depth.npy)",
+        )?;
+        let depth = DepthValues::read(&depth_file)?;
+        let mut camera = Camera::read_with_warnings(required(
             dir,
             CAMERA,
             "camera.json (or camera.yaml, intrinsic.json)",
         )?)?;
+        let is_assumed = |w: &Warning| w.code == WarningCode::DepthScaleAssumed;
+        let assumed = camera.warnings.iter().any(is_assumed);
+        let scale = (!assumed).then_some(camera.value.depth_scale);
+        let (depth, unit) = depth
+            .in_units(scale)
+            .map_err(|fault| fault.at(&depth_file))?;
+        if let Some(unit) = unit {
+            camera.value.depth_scale = unit;
+            camera.warnings.retain(|w| !is_assumed(w));
+            if assumed {
+                camera.warnings.push(Warning::new(
+                    WarningCode::DepthScaleAssumed,
+                    "no depth unit; depth in floating point is taken to be in metres",
+                ));
+            }
+        }
         let mut frame = Self::new(folder_name(dir), camera.value, color, depth);
         frame.warnings = camera.warnings;
         frame.validate_as(dir)?;
@@ -148,10 +196,11 @@ impl Frame {
             let names = Self::COLOR_FILES
                 .iter()
                 .chain(CAMERA)
+                .chain(&Self::DEPTH_FILES)
                 .chain(&Self::BOX_FILES);
             if let Some(name) = names
                 .filter(|n| !kept.contains(n))
-                .find(|n| dir.join(n).exists())
+                .find(|n| present(dir, &[n]).is_some())
             {
                 let message = "it belongs to another frame; choose a new folder or remove it";
                 let source = std::io::Error::new(std::io::ErrorKind::AlreadyExists, message);
@@ -251,11 +300,23 @@ impl Frame {
     }
 }
 
+/// The first of these files that is in a folder, by its name as it stands, else regardless of capitals.
 fn present(dir: &Path, names: &[&str]) -> Option<PathBuf> {
-    names
+    let exact = names
         .iter()
         .map(|name| dir.join(name))
-        .find(|path| path.exists())
+        .find(|path| path.exists());
+    exact.or_else(|| {
+        let entries = fs::read_dir(dir).ok()?.filter_map(Result::ok);
+        let mut inside: Vec<_> = entries.map(|entry| entry.file_name()).collect();
+        inside.sort();
+        names.iter().find_map(|name| {
+            let same = inside
+                .iter()
+                .find(|other| other.eq_ignore_ascii_case(name))?;
+            Some(dir.join(same))
+        })
+    })
 }
 
 fn required(dir: &Path, names: &[&str], expected: &'static str) -> Result<PathBuf, CloudError> {

@@ -106,6 +106,7 @@ pub use error::CloudError;
 pub use formats::CloudFormat;
 pub use frame::{BoxSource, Frame};
 pub use gray::GrayImage;
+pub use image::DepthValues;
 pub use points::DepthPoints;
 pub use pomona_files::{FileError, Warning, WarningCode, WithWarnings};
 pub use tum::{TumEntry, read_tum};

@@ -4,16 +4,34 @@ use crate::summary::Summary;
 use anyhow::{anyhow, bail};
 use pomona::record::{PicksRecord, SCHEMA};
 use pomona::{Config, RobotFromCamera};
-use pomona_cloud::{BoxChoice, BoxImage, ColorImage, Frame, read_boxes};
+use pomona_cloud::{BoxChoice, BoxImage, CocoDataset, ColorImage, Frame, read_boxes};
 use pomona_scenes::{TRUTH_SCHEMA, Truth};
 use pomona_transforms::SCHEMA as TRANSFORM_SCHEMA;
 use serde_json::Value;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Whether a file that begins so holds boxes: XML, or a text named so.
 pub(super) fn is_box_file(path: &Path, start: &[u8]) -> bool {
     let is_xml = start.trim_ascii_start().starts_with(b"<");
-    is_xml || path.file_name().is_some_and(|name| name == "boxes.txt")
+    let is_text = path
+        .extension()
+        .is_some_and(|ending| ending.eq_ignore_ascii_case("txt"));
+    let is_named = path
+        .file_name()
+        .is_some_and(|name| name.eq_ignore_ascii_case("boxes.txt"));
+    is_xml || is_named || (is_text && is_yolo(start))
+}
+
+/// Whether the first line has as many numbers as a YOLO box without a score, the first of them a whole one: points of
+/// clouds have 3 or 6.
+fn is_yolo(start: &[u8]) -> bool {
+    let text = String::from_utf8_lossy(start);
+    let Some(line) = text.lines().find(|line| !line.trim().is_empty()) else {
+        return false;
+    };
+    let mut words = line.split_whitespace();
+    let class = words.next().is_some_and(|word| word.parse::<u32>().is_ok());
+    class && words.clone().count() == 4 && words.all(|word| word.parse::<f64>().is_ok())
 }
 
 /// A JSON file, by its `schema`, or else by its fields.
@@ -29,15 +47,53 @@ pub(super) fn json(path: &Path) -> anyhow::Result<Facts> {
         )),
         Some(TRUTH_SCHEMA) => Ok(truth(path, &Truth::read(path)?)),
         Some(TRANSFORM_SCHEMA) => Ok(transform(path, &RobotFromCamera::read(path)?)),
-        Some(schema) if schema.starts_with("pomona.detections/") => boxes(path),
+        Some(schema) if schema.starts_with("pomona.detections/") => Ok(detections(path, &value)),
         Some(other) => bail!(
             "{}: its schema is `{other}`; known are {}, {TRUTH_SCHEMA} and {TRANSFORM_SCHEMA}",
             path.display(),
             SCHEMA
         ),
-        None if holds_boxes(&value) => boxes(path),
+        None if holds_boxes(&value) => {
+            let names_images = value["images"][0].get("file_name").is_some();
+            if names_images && image_beside(path).is_none() {
+                dataset(path)
+            } else {
+                boxes(path)
+            }
+        }
         None => camera::facts(path),
     }
+}
+
+/// What `pomona detect` saw.
+fn detections(path: &Path, record: &Value) -> Facts {
+    let mut facts = Facts::new(path, "detections");
+    facts.say("schema", record["schema"].clone());
+    facts.say("detector", record["detector"]["name"].clone());
+    let images = record["images"].as_array();
+    let boxes = images
+        .into_iter()
+        .flatten()
+        .filter_map(|image| image["detections"].as_array());
+    facts.say("images", images.map_or(0, Vec::len));
+    facts.say("boxes", boxes.map(Vec::len).sum::<usize>());
+    facts
+}
+
+/// A COCO file that names its images: what it holds of all of them.
+fn dataset(path: &Path) -> anyhow::Result<Facts> {
+    let dataset = CocoDataset::read(path)?;
+    let mut facts = Facts::new(path, "boxes of images");
+    facts.say("images", dataset.images.len());
+    let boxes = dataset.images.iter().map(|image| image.boxes.len());
+    facts.say("boxes", boxes.sum::<usize>());
+    let names = dataset
+        .categories
+        .iter()
+        .map(|category| category.name.clone());
+    let names: Vec<String> = names.collect();
+    facts.add("classes", names.clone(), names.join(", "));
+    Ok(facts)
 }
 
 /// Whether a JSON without a schema is of boxes: a list, COCO or `LabelMe`.
@@ -117,16 +173,24 @@ pub(super) fn settings(path: &Path) -> anyhow::Result<Facts> {
     Ok(facts)
 }
 
+/// The frame's colour image beside a file.
+fn image_beside(path: &Path) -> Option<PathBuf> {
+    Frame::color_file(
+        path.parent()
+            .filter(|folder| !folder.as_os_str().is_empty())
+            .unwrap_or(Path::new(".")),
+    )
+}
+
 /// Boxes, whose numbers mean something only in their image: the one beside them.
 pub(super) fn boxes(path: &Path) -> anyhow::Result<Facts> {
-    let beside = Frame::COLOR_FILES.map(|name| path.with_file_name(name));
-    let Some(file) = beside.iter().find(|image| image.exists()) else {
+    let Some(file) = image_beside(path) else {
         bail!(
             "{}: boxes belong to an image, and no color.png or color.jpg lies beside them; put them into their frame's folder",
             path.display()
         );
     };
-    let (width, height) = ColorImage::read_size(file)?;
+    let (width, height) = ColorImage::read_size(&file)?;
     let image = BoxImage::new(width, height).at(file);
     let read = read_boxes(path, &image, &BoxChoice::default())?;
     let boxes = read.value;

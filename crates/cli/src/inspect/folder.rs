@@ -16,7 +16,7 @@ pub(super) fn facts(path: &Path) -> anyhow::Result<Facts> {
         facts.say("frames", read_tum(path)?.len());
         return Ok(facts);
     }
-    if path.join(PICKS).is_file() && !path.join("depth.png").exists() {
+    if path.join(PICKS).is_file() && Frame::depth_file(path).is_none() {
         return document::json(&path.join(PICKS));
     }
     frame(path)

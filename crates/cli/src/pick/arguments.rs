@@ -112,12 +112,7 @@ impl PickArguments {
 
     /// Whether the apples of a frame are boxed in a file, so that no detector runs.
     pub(super) fn has_boxes(&self, frame: &Path) -> bool {
-        let own = || {
-            Frame::BOX_FILES
-                .iter()
-                .any(|name| frame.join(name).exists())
-        };
-        !self.detect && (self.boxes.is_some() || own())
+        !self.detect && (self.boxes.is_some() || Frame::box_file(frame).is_some())
     }
 
     /// Which files a frame's answers are written to.

@@ -422,5 +422,26 @@ fn what_detect_writes_is_taken_by_pick() {
     let facts = pomona(&["inspect", &bench.text("a/detections.json"), "--json"])
         .succeeded()
         .json();
-    assert_eq!(facts["kind"], "boxes");
+    assert_eq!(
+        (&facts["kind"], &facts["images"]),
+        (&json!("detections"), &json!(2))
+    );
+    pomona(&[
+        "detect",
+        &a,
+        &b,
+        "--runtime",
+        "embedded",
+        "--no-picture",
+        "--out",
+        &out,
+    ])
+    .succeeded();
+    let facts = pomona(&["inspect", &bench.text("boxes/boxes.json"), "--json"])
+        .succeeded()
+        .json();
+    assert_eq!(
+        (&facts["kind"], &facts["classes"]),
+        (&json!("boxes of images"), &json!(["apple"]))
+    );
 }

@@ -194,3 +194,66 @@ fn an_invalid_frame_is_not_written() {
     assert!(outside.write(&dir).is_err());
     assert_eq!(fs::read_dir(parent.path()).unwrap().count(), 0);
 }
+
+/// An NPY file of floating point.
+fn npy(width: usize, height: usize, values: &[f32]) -> Vec<u8> {
+    let header =
+        format!("{{'descr': '<f4', 'fortran_order': False, 'shape': ({height}, {width}), }}\n");
+    let length = u16::try_from(header.len()).unwrap().to_le_bytes();
+    let data: Vec<u8> = values
+        .iter()
+        .flat_map(|value| value.to_le_bytes())
+        .collect();
+    [b"\x93NUMPY\x01\0", &length[..], header.as_bytes(), &data].concat()
+}
+
+#[test]
+fn depth_in_floating_point_is_in_metres_unless_the_camera_says_otherwise() {
+    let (_parent, dir) = written(&frame());
+    fs::remove_file(dir.join("depth.png")).unwrap();
+    let metres: Vec<f32> = frame()
+        .depth
+        .readings
+        .iter()
+        .map(|&r| f32::from(r) / 1000.0)
+        .collect();
+    fs::write(dir.join("Depth.NPY"), npy(8, 6, &metres)).unwrap();
+    // The camera's millimetres are not what these numbers are of.
+    let error = Frame::read(&dir).unwrap_err().to_string();
+    assert!(
+        error.contains("Depth.NPY") && error.contains("depth_scale"),
+        "{error}"
+    );
+    let text = fs::read_to_string(dir.join("camera.json")).unwrap();
+    let mut camera: serde_json::Value = serde_json::from_str(&text).unwrap();
+    for (scale, warnings) in [(Some(1.0), 0), (None, 1)] {
+        match scale {
+            Some(scale) => camera["depth_scale"] = scale.into(),
+            None => drop(camera.as_object_mut().unwrap().remove("depth_scale")),
+        }
+        fs::write(dir.join("camera.json"), camera.to_string()).unwrap();
+        let read = Frame::read(&dir).unwrap();
+        let z =
+            |frame: &Frame, k: usize| f64::from(frame.depth.readings[k]) * frame.camera.depth_scale;
+        for k in 0..48 {
+            assert!((z(&read, k) - z(&frame(), k)).abs() < 1e-4, "{k}");
+        }
+        assert_eq!(read.warnings.len(), warnings, "{:?}", read.warnings);
+    }
+}
+
+#[test]
+fn names_in_capitals_and_rgb_are_known() {
+    let (_parent, dir) = written(&frame());
+    fs::rename(dir.join("color.png"), dir.join("RGB.png")).unwrap();
+    fs::rename(dir.join("depth.png"), dir.join("DEPTH.PNG")).unwrap();
+    fs::rename(dir.join("boxes.xml"), dir.join("Boxes.XML")).unwrap();
+    assert_eq!(Frame::read(&dir).unwrap(), frame());
+    assert_eq!(Frame::color_file(&dir), Some(dir.join("RGB.png")));
+    // Another frame's files are in the way under any of their names.
+    let error = frame().write(&dir).unwrap_err().to_string();
+    assert!(
+        error.contains("belongs to another frame") || error.contains("RGB.png"),
+        "{error}"
+    );
+}

@@ -102,11 +102,13 @@ pub(super) fn parse_depth(bytes: &[u8]) -> Result<DepthImage, Malformed> {
     let mut reader = open(bytes, Transformations::IDENTITY)?;
     let (color, bits) = reader.output_color_type();
     if (color, bits) != (ColorType::Grayscale, BitDepth::Sixteen) {
+        let channels = color.samples();
         let problem = format!(
-            "a {}-bit {color:?} image where depth must be 16-bit grey",
-            bits as u8
+            "a {}-bit {color:?} image ({} bits to a pixel) where depth must be 16-bit grey",
+            bits as u8,
+            channels * bits as usize
         );
-        let remedy = "store depth as 16-bit grey PNG in units of `depth_scale`; a coloured or 8-bit picture of depth has lost it";
+        let remedy = "store depth as 16-bit grey PNG in units of `depth_scale`, or as TIFF or NPY; a coloured or 8-bit picture of depth has lost it";
         return Err(Malformed::new("PNG header", problem, remedy));
     }
     let (width, height) = (reader.info().width as usize, reader.info().height as usize);

@@ -6,26 +6,15 @@ use std::path::{Path, PathBuf};
 
 /// Whether a folder is a frame's, with boxes or without.
 pub(super) fn is_frame(folder: &Path) -> bool {
-    let rest = ["depth.png"].into_iter().chain(Frame::BOX_FILES);
-    present(folder, &Frame::COLOR_FILES).is_some()
-        && rest.into_iter().any(|name| folder.join(name).is_file())
-}
-
-fn present(folder: &Path, names: &[&str]) -> Option<PathBuf> {
-    names
-        .iter()
-        .map(|name| folder.join(name))
-        .find(|path| path.is_file())
+    let rest = Frame::depth_file(folder).or_else(|| Frame::box_file(folder));
+    Frame::color_file(folder).is_some() && rest.is_some()
 }
 
 /// The frames in `folders`, of which `folder` is the one or holds them all.
 pub(super) fn read(folder: &Path, folders: &[PathBuf]) -> Result<LabelledDataset, LabelsError> {
     let mut dataset = LabelledDataset::new(folder_name(folder), LabelForm::Frames, Vec::new());
     for frame in folders {
-        let (Some(path), boxes) = (
-            present(frame, &Frame::COLOR_FILES),
-            present(frame, &Frame::BOX_FILES),
-        ) else {
+        let (Some(path), boxes) = (Frame::color_file(frame), Frame::box_file(frame)) else {
             continue;
         };
         let Some(boxes) = boxes else {

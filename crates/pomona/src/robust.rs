@@ -182,7 +182,7 @@ fn find_branch(
                 smear: frame.depth_quality().smear(),
                 config,
             };
-            let ranked = search.candidates(&distinct, rng);
+            let ranked = search.candidates(&by_depth, rng);
             answer.candidates = ranked.iter().map(wood_candidate).collect();
             let decided = decide_by_wood(found, &ranked, config, answer);
             (ranked.iter().map(|c| c.candidate).collect(), decided)

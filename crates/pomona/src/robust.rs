@@ -43,10 +43,10 @@ use std::time::Instant;
 use trust::Trust;
 use wood::{WoodCandidate, WoodSearch};
 
-/// Share of the confidence that is lost where depth is smeared and no colour tells what is wood. The answers to
-/// apples of two time-of-flight frames whose wood a person sees have a mean confidence of 0.91 without this, and 13 of 28
-/// are right.
-const SMEARED_LOSS: f64 = 0.2;
+/// Share of the confidence that is lost where depth is smeared and no colour tells what is wood. Without it the answers to
+/// 32 apples of two time-of-flight frames whose wood a person sees have a mean confidence of 0.83, and 13 are right; of
+/// those in 60 scenes of `dense` every third one points at wood in the image.
+const SMEARED_LOSS: f64 = 0.45;
 
 /// Radii about the centre within which branches are looked for, beside the length along them.
 const SHELL_MARGIN: f64 = 0.4;

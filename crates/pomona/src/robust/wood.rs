@@ -21,7 +21,7 @@ use super::axis::BranchAxis;
 use super::axis_fit::AxisSupport;
 use super::branch::Candidate;
 use super::confidence::without_candidate;
-use super::nearest::{Place, Ranked, nearest_first};
+use super::nearest::{Place, Ranked, by_distance};
 use crate::optics::window_of_sphere;
 use crate::outcome::Status;
 use crossings::Crossings;
@@ -111,7 +111,7 @@ impl WoodSearch<'_> {
                 wood: *wood,
             })
             .collect();
-        let ranked = nearest_first(&places, self.apple.radius);
+        let ranked = by_distance(&places, self.apple.radius, self.config.nearest_first);
         ranked
             .into_iter()
             .map(|(k, nearest)| WoodCandidate {

@@ -12,7 +12,7 @@ const REMEDY: &str =
     "give `class cx cy w h [score]` on each line, as fractions of the image's width and height";
 
 /// No share of an image is as large: a number beyond is of pixels.
-const LARGEST_SHARE: f64 = 2.0;
+const LARGEST_SHARE: f64 = 4.0;
 
 /// Fewest numbers of a polygon: three corners.
 const FEWEST_OF_POLYGON: usize = 6;

@@ -108,7 +108,7 @@ fn read(path: &Path, image: &BoxImage) -> Result<Reading, CloudError> {
     let mut parsed = parse(&bytes, &file, image).map_err(|fault| fault.at(path))?;
     class_names::add(&mut parsed, path)?;
     let classes = std::mem::take(&mut parsed.classes);
-    let chosen = image.choose(&file, parsed);
+    let chosen = image.choose(path, parsed);
     let (image, warnings) = chosen.map_err(|fault| fault.at(path))?;
     Ok(Reading {
         labels: image.labels,
@@ -214,7 +214,9 @@ mod tests {
     fn labels(bytes: &[u8], width: usize, height: usize) -> Result<Vec<LabelledBox>, Malformed> {
         let image = BoxImage::new(width, height);
         let parsed = parse(bytes, "boxes", &image)?;
-        image.choose("boxes", parsed).map(|(image, _)| image.labels)
+        image
+            .choose(Path::new("boxes"), parsed)
+            .map(|(image, _)| image.labels)
     }
 
     #[test]

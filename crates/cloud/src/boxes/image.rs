@@ -51,22 +51,39 @@ impl BoxImage {
         }
     }
 
-    /// The boxes of this image; `file` is the box file's name in warnings.
+    /// The boxes of this image; `file` is the box file.
     pub(super) fn choose(
         &self,
-        file: &str,
+        file: &Path,
         parsed: Parsed,
     ) -> Result<(ImageBoxes, Vec<Warning>), Malformed> {
+        let is_own = parsed.is_of_one
+            && self
+                .path
+                .as_ref()
+                .is_some_and(|image| image.parent() == file.parent());
         let Parsed {
             mut images,
             mut warnings,
             ..
         } = parsed;
-        let Some(chosen) = self.position(file, &images, &mut warnings)? else {
+        let file = file.file_name().unwrap_or_default().to_string_lossy();
+        let Some(chosen) = self.position(&images)? else {
             return Ok((ImageBoxes::default(), warnings));
         };
         let others: usize = images.iter().map(|image| image.labels.len()).sum();
         let chosen = images.swap_remove(chosen);
+        if let (Some(name), Some(path), false) = (&chosen.name, &self.path, is_own)
+            && self.fit(name).is_none()
+        {
+            warnings.push(Warning::new(
+                WarningCode::BoxImageAssumed,
+                format!(
+                    "{file}: its boxes are of {name}, the only image in it, which is taken for {}",
+                    shown(path)
+                ),
+            ));
+        }
         self.check_size(&chosen)?;
         if chosen.labels.is_empty() && others > 0 {
             warnings.push(Warning::new(
@@ -80,12 +97,7 @@ impl BoxImage {
         Ok((chosen, warnings))
     }
 
-    fn position(
-        &self,
-        file: &str,
-        images: &[ImageBoxes],
-        warnings: &mut Vec<Warning>,
-    ) -> Result<Option<usize>, Malformed> {
+    fn position(&self, images: &[ImageBoxes]) -> Result<Option<usize>, Malformed> {
         let fits = |image: &ImageBoxes| self.fit(image.name.as_deref()?);
         let best = images.iter().filter_map(fits).max();
         let those: Vec<usize> = match best {
@@ -97,18 +109,7 @@ impl BoxImage {
         match (&*those, images) {
             ([one], _) => Ok(Some(*one)),
             (_, []) => Ok(None),
-            ([], [only]) => {
-                if let (Some(name), Some(path)) = (&only.name, &self.path) {
-                    warnings.push(Warning::new(
-                        WarningCode::BoxImageAssumed,
-                        format!(
-                            "{file}: its boxes are of {name}, the only image in it, which is taken for {}",
-                            shown(path)
-                        ),
-                    ));
-                }
-                Ok(Some(0))
-            }
+            ([], [_]) => Ok(Some(0)),
             _ => self.without_name(images, &those),
         }
     }
@@ -273,7 +274,7 @@ mod tests {
         };
         let (image, warnings) = BoxImage::new(4, 4)
             .at(path)
-            .choose("boxes.json", parsed)
+            .choose(Path::new("boxes.json"), parsed)
             .map_err(|e| e.problem)?;
         let first = image.labels.first().map(|label| label.bounds.name.clone());
         Ok((first, warnings.into_iter().map(|w| w.code).collect()))

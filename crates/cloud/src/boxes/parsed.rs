@@ -9,6 +9,9 @@ pub(super) struct Parsed {
     pub(super) classes: Vec<String>,
     /// What is doubtful about it.
     pub(super) warnings: Vec<Warning>,
+    /// Whether its format has a file for each image: beside the image it is of that one, whatever its name was before it
+    /// became a frame's.
+    pub(super) is_of_one: bool,
 }
 
 /// The boxes of one image.
@@ -26,6 +29,7 @@ impl Parsed {
     pub(super) fn of_one(image: ImageBoxes) -> Self {
         Self {
             images: vec![image],
+            is_of_one: true,
             ..Self::default()
         }
     }

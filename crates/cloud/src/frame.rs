@@ -132,11 +132,7 @@ impl Frame {
         }
         let color_file = required(dir, &Self::COLOR_FILES, "color.png or color.jpg")?;
         let color = ColorImage::read(&color_file)?;
-        let depth_file = required(
-            dir,
-            &Self::DEPTH_FILES,
-            "depth.png (or depth.tiff, depth.npy)",
-        )?;
+        let depth_file = required(dir, &Self::DEPTH_FILES, "depth.png")?;
         let depth = DepthValues::read(&depth_file)?;
         let mut camera = Camera::read_with_warnings(required(
             dir,

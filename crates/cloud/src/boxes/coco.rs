@@ -206,7 +206,7 @@ pub(super) fn parse(text: &str) -> Result<Parsed, Malformed> {
             .into_iter()
             .filter_map(|category| category.name)
             .collect(),
-        warnings: Vec::new(),
+        ..Parsed::default()
     })
 }
 

@@ -35,7 +35,7 @@ pub(super) fn parse(document: &Document<'_>) -> Result<Parsed, Malformed> {
             .map(|image| of_image(document, image))
             .collect::<Result<_, _>>()?,
         classes: names.map(|name| name.trim().to_owned()).collect(),
-        warnings: Vec::new(),
+        ..Parsed::default()
     })
 }
 

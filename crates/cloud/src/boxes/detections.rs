@@ -64,6 +64,6 @@ pub(super) fn parse(text: &str) -> Result<Parsed, Malformed> {
     Ok(Parsed {
         images: images.collect(),
         classes: vec![CLASS.to_owned()],
-        warnings: Vec::new(),
+        ..Parsed::default()
     })
 }

@@ -11,8 +11,8 @@ use std::fmt::Write;
 const REMEDY: &str =
     "give `class cx cy w h [score]` on each line, as fractions of the image's width and height";
 
-/// No share of an image is as large: a number beyond is of pixels.
-const LARGEST_SHARE: f64 = 4.0;
+/// No share of an image is as large: where two numbers of a box are beyond, they are of pixels.
+const LARGEST_SHARE: f64 = 2.0;
 
 /// Fewest numbers of a polygon: three corners.
 const FEWEST_OF_POLYGON: usize = 6;
@@ -51,7 +51,8 @@ pub(super) fn parse(
                     .map_err(|_| fault(format!("`{token}` is not a number")))
             })
             .collect::<Result<_, _>>()?;
-        if let Some(pixels) = numbers.iter().find(|x| x.abs() > LARGEST_SHARE) {
+        let mut large = numbers.iter().filter(|x| x.abs() > LARGEST_SHARE);
+        if let (Some(pixels), Some(_)) = (large.next(), large.next()) {
             return Err(Malformed::new(
                 format!("line {number}"),
                 format!(

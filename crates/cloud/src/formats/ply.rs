@@ -132,12 +132,11 @@ fn parse_header(bytes: &[u8]) -> Result<(Header, &[u8], usize), Malformed> {
 /// comments.
 fn header_line(line: &str) -> String {
     let words: Vec<&str> = line.split_whitespace().collect();
-    let is_free = words.first().is_some_and(|word| {
-        let word = word.to_ascii_lowercase();
-        word == "comment" || word == "obj_info"
-    });
-    if is_free {
-        return line.trim().replace('\t', " ");
+    if let Some((first, rest)) = words.split_first() {
+        let first = first.to_ascii_lowercase();
+        if first == "comment" || first == "obj_info" {
+            return format!("{first} {}", rest.join(" "));
+        }
     }
     words.join(" ").to_ascii_lowercase()
 }

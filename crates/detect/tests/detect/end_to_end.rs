@@ -151,7 +151,9 @@ fn numbers_that_are_no_classes_are_refused() {
 fn masks_and_key_points_behind_the_boxes_are_passed_over() {
     let seen = |task: &str, more: usize| {
         let mut rows: Vec<Vec<f32>> = ROWS.iter().map(|row| row.to_vec()).collect();
-        rows.iter_mut().for_each(|row| row.resize(6 + more, 0.5));
+        for row in &mut rows {
+            row.resize(6 + more, 0.5);
+        }
         let rows: Vec<&[f32]> = rows.iter().map(|row| &row[..]).collect();
         let metadata = [("names", NAMES), ("task", task), ("end2end", "True")];
         found(network(&rows, 300, &[1, 300, 6 + more], &metadata), None)

@@ -1,25 +1,45 @@
-//! Fits the two models of the method `robust` to scenes: `cargo xtask fit-wood` and `cargo xtask fit-confidence`.
+//! Fits the three models of the method `robust` to scenes: `cargo xtask fit-presence`, `cargo xtask fit-wood` and `cargo
+//! xtask fit-confidence`.
 //!
-//! Each is a logistic model, of 'this candidate is wood' and of 'the direction is at most 20 degrees off'. Prints the
-//! coefficients beside those in use, and how both do in a cross-validation over the scenes.
+//! Each is a logistic model, of 'this box holds an apple', of 'this candidate is wood' and of 'the direction is at most 20
+//! degrees off'. Prints the coefficients beside those in use, and how both do in a cross-validation over the scenes.
 
 mod answers;
+mod boxes;
 mod candidates;
 mod logistic;
 mod scenes;
 
-use pomona::{CONFIDENCE_FEATURES, CONFIDENCE_MODEL, WOOD_FEATURES, WOOD_MODEL};
+use logistic::Weighting;
+use pomona::{
+    CONFIDENCE_FEATURES, CONFIDENCE_MODEL, PRESENCE_FEATURES, PRESENCE_MODEL, WOOD_FEATURES,
+    WOOD_MODEL,
+};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     match std::env::args().nth(1).as_deref() {
+        Some("presence") => {
+            let observations = boxes::observe()?;
+            logistic::print(
+                &PRESENCE_FEATURES,
+                &PRESENCE_MODEL,
+                &observations,
+                Weighting::Share(boxes::APPLES_SHARE),
+            )
+        }
         Some("wood") => {
             let observations = scenes::observe(&candidates::of_scene)?;
-            logistic::print(&WOOD_FEATURES, &WOOD_MODEL, &observations)
+            logistic::print(&WOOD_FEATURES, &WOOD_MODEL, &observations, Weighting::Equal)
         }
         Some("confidence") => {
             let observations = scenes::observe(&answers::of_scene)?;
-            logistic::print(&CONFIDENCE_FEATURES, &CONFIDENCE_MODEL, &observations)
+            logistic::print(
+                &CONFIDENCE_FEATURES,
+                &CONFIDENCE_MODEL,
+                &observations,
+                Weighting::Equal,
+            )
         }
-        _ => Err("which one: `wood` or `confidence`?".into()),
+        _ => Err("which one: `presence`, `wood` or `confidence`?".into()),
     }
 }

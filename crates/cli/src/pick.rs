@@ -85,6 +85,9 @@ fn answer_all(
         bar.set_message(job.frame.display().to_string());
         match session.run(job, pose.as_ref(), terminal) {
             Ok(answer) => {
+                for warning in &answer.warnings {
+                    bar.suspend(|| terminal.warn(&answer.id, warning));
+                }
                 if let Some(note) = empty_boxes(&answer) {
                     bar.suspend(|| terminal.note(&note));
                 }

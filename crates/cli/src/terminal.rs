@@ -1,6 +1,7 @@
 use anstyle::{AnsiColor, Style};
 use anyhow::Error;
 use clap::ColorChoice;
+use pomona::Warning;
 use std::io::{self, IsTerminal, Write};
 
 /// Bold, for headings.
@@ -55,6 +56,12 @@ impl Terminal {
     /// Says on standard error what a person should know.
     pub(crate) fn note(self, text: &str) {
         self.message(REFUSED, "note", text);
+    }
+
+    /// Says on standard error what was assumed about an input, or is doubtful about it; `input` names it.
+    pub(crate) fn warn(self, input: &str, warning: &Warning) {
+        let text = format!("{}: {}", one_line(input), one_line(&warning.to_string()));
+        self.message(REFUSED, warning.level().name(), &text);
     }
 
     fn message(self, style: Style, kind: &str, text: &str) {

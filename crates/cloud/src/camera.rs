@@ -1,3 +1,4 @@
+mod assumed;
 mod error;
 mod file;
 mod json;

@@ -4,7 +4,7 @@ use crate::boxes::validate_all;
 use crate::{
     BoxFormat, Camera, CloudError, ColorImage, DepthImage, PixelBox, read_boxes, write_boxes,
 };
-use pomona_files::{FileError, Malformed, temporary_beside};
+use pomona_files::{FileError, Malformed, Warning, temporary_beside};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -22,6 +22,8 @@ pub struct Frame {
     pub depth: DepthImage,
     /// Boxes of apples; `None` where no detector or person has marked any.
     pub boxes: Option<Vec<PixelBox>>,
+    /// What was assumed about its files, or is doubtful about them, when it was read.
+    pub warnings: Vec<Warning>,
 }
 
 const CAMERA: &[&str] = &[
@@ -49,6 +51,7 @@ impl Frame {
             color,
             depth,
             boxes: None,
+            warnings: Vec::new(),
         }
     }
 
@@ -73,12 +76,13 @@ impl Frame {
         }
         let color = ColorImage::read(required(dir, &Self::COLOR_FILES, "color.png or color.jpg")?)?;
         let depth = DepthImage::read(required(dir, &["depth.png"], "depth.png")?)?;
-        let camera = Camera::read(required(
+        let camera = Camera::read_with_warnings(required(
             dir,
             CAMERA,
             "camera.json (or camera.yaml, intrinsic.json)",
         )?)?;
-        let mut frame = Self::new(folder_name(dir), camera, color, depth);
+        let mut frame = Self::new(folder_name(dir), camera.value, color, depth);
+        frame.warnings = camera.warnings;
         frame.validate_as(dir)?;
         if let Some(path) = present(dir, &Self::BOX_FILES) {
             frame.boxes = Some(read_boxes(path, frame.color.width, frame.color.height)?);

@@ -105,6 +105,6 @@ pub use formats::CloudFormat;
 pub use frame::Frame;
 pub use gray::GrayImage;
 pub use points::DepthPoints;
-pub use pomona_files::FileError;
+pub use pomona_files::{FileError, Warning, WarningCode, WithWarnings};
 pub use tum::{TumEntry, read_tum};
 pub use window::PixelWindow;

@@ -73,6 +73,7 @@ impl TumEntry {
             color: ColorImage::read(&self.color)?,
             depth: DepthImage::read(&self.depth)?,
             boxes: None,
+            warnings: Vec::new(),
         };
         frame.validate_as(&self.color)?;
         Ok(frame)

@@ -1,4 +1,4 @@
-//! Reading and atomic writing of files, and errors that name the file, the location and the remedy.
+//! Reading and atomic writing of files, errors that name the file, the location and the remedy, and warnings.
 //!
 //! ```
 //! use pomona_files::{FileError, Malformed, read, write_atomically};
@@ -29,6 +29,9 @@
 //!   [`FileError`] with [`Malformed::at`].
 //! - [`write_atomically`] writes to a temporary file beside the destination and renames it, so that a reader finds the
 //!   old content or the new one, never a part.
+//! - A [`Warning`] says what was assumed about an input that does not state it, or what is doubtful about it. Its
+//!   [`WarningCode`] is for programs; all codes are declared in one list, with their [`Level`]. A reader returns them
+//!   beside what it read, as [`WithWarnings`].
 //!
 //! # Not here
 //!
@@ -36,6 +39,8 @@
 
 mod atomic;
 mod error;
+mod warning;
 
 pub use atomic::{read, temporary_beside, write_atomically};
 pub use error::{FileError, Malformed};
+pub use warning::{Level, Warning, WarningCode, WithWarnings};

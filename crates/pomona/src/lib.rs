@@ -89,6 +89,7 @@ pub use outcome::{
 };
 pub use picker::Picker;
 pub use pomona_approach::{ApproachConfig, Gripper};
+pub use pomona_files::{Level, Warning, WarningCode};
 pub use pomona_settings::ConfigError;
 pub use robot::{Robot, RobotPlan};
 pub use robust::{CONFIDENCE_MODEL, PRESENCE_MODEL, WOOD_MODEL};

@@ -123,7 +123,9 @@ impl Picker {
             })
             .collect();
         let method = self.config.method;
-        Ok(FrameAnswer::new(method, seed, id, &camera.frame_id, apples))
+        let mut answer = FrameAnswer::new(method, seed, id, &camera.frame_id, apples);
+        answer.warnings.clone_from(&frame.frame().warnings);
+        Ok(answer)
     }
 }
 

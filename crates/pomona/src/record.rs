@@ -10,6 +10,7 @@ mod robot;
 #[cfg(test)]
 mod schema;
 mod times;
+mod warning;
 
 pub use detection::{BoxOriginRecord, DetectionSummaryRecord, DetectionTimesRecord};
 pub use fitted::{AppleRecord, BranchRecord, CandidateRecord};
@@ -19,6 +20,7 @@ pub use plan::{
     PlanRecord, PoseRecord, SampleRecord, WayRecord,
 };
 pub use robot::{FallbackRecord, RobotRecord};
+pub use warning::WarningRecord;
 
 use crate::outcome::FrameAnswer;
 use serde::{Deserialize, Serialize};
@@ -46,6 +48,10 @@ pub struct PicksRecord {
     /// What found the boxes; absent where they came with the frame or in a file.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub detection: Option<DetectionSummaryRecord>,
+    /// What was assumed about the input, or is doubtful about it; absent where nothing is.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[cfg_attr(test, schemars(length(min = 1)))]
+    pub warnings: Vec<WarningRecord>,
     /// One entry for each box, in the boxes' order.
     pub picks: Vec<PickRecord>,
 }
@@ -73,6 +79,7 @@ impl From<&FrameAnswer> for PicksRecord {
                 frame_id: answer.camera_frame_id.clone(),
             },
             detection: answer.detection.as_ref().map(DetectionSummaryRecord::from),
+            warnings: answer.warnings.iter().map(WarningRecord::from).collect(),
             picks: answer.apples.iter().map(PickRecord::from).collect(),
         }
     }

@@ -4,8 +4,10 @@ use std::path::Path;
 
 /// A camera, as JSON or YAML.
 pub(super) fn facts(path: &Path) -> anyhow::Result<Facts> {
-    let camera = Camera::read(path)?;
+    let read = Camera::read_with_warnings(path)?;
+    let camera = read.value;
     let mut facts = Facts::new(path, "camera");
+    facts.warn(read.warnings);
     facts.size(camera.width, camera.height);
     add_camera(&mut facts, &camera);
     Ok(facts)

@@ -1,4 +1,6 @@
-use crate::terminal::{FAINT, HEADING, Terminal, one_line};
+use crate::terminal::{FAINT, HEADING, REFUSED, Terminal, one_line};
+use pomona::Warning;
+use pomona::record::WarningRecord;
 use serde::ser::{Serialize, SerializeMap, Serializer};
 use serde_json::Value;
 use std::fmt::Write;
@@ -9,6 +11,7 @@ pub(crate) struct Facts {
     path: String,
     kind: &'static str,
     list: Vec<Fact>,
+    warnings: Vec<Warning>,
 }
 
 struct Fact {
@@ -23,6 +26,7 @@ impl Facts {
             path: path.display().to_string(),
             kind,
             list: Vec::new(),
+            warnings: Vec::new(),
         }
     }
 
@@ -54,6 +58,11 @@ impl Facts {
         self.add("size", vec![width, height], format!("{width} x {height}"));
     }
 
+    /// Adds what the next command would say about this input.
+    pub(crate) fn warn(&mut self, warnings: impl IntoIterator<Item = Warning>) {
+        self.warnings.extend(warnings);
+    }
+
     /// As lines for a person.
     pub(crate) fn text(&self, terminal: Terminal) -> String {
         let heading = terminal.paint(HEADING, &one_line(&self.path));
@@ -65,17 +74,25 @@ impl Facts {
             // Writing to a string cannot fail.
             let _ = writeln!(text, "  {name}  {}", one_line(&fact.text));
         }
+        for warning in &self.warnings {
+            let level = terminal.paint(REFUSED, warning.level().name());
+            let _ = writeln!(text, "  {level}: {}", one_line(&warning.to_string()));
+        }
         text
     }
 }
 
 impl Serialize for Facts {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let mut map = serializer.serialize_map(Some(self.list.len() + 2))?;
+        let mut map = serializer.serialize_map(None)?;
         map.serialize_entry("path", &self.path)?;
         map.serialize_entry("kind", self.kind)?;
         for fact in &self.list {
             map.serialize_entry(fact.name, &fact.value)?;
+        }
+        if !self.warnings.is_empty() {
+            let records = self.warnings.iter().map(WarningRecord::from);
+            map.serialize_entry("warnings", &records.collect::<Vec<_>>())?;
         }
         map.end()
     }
@@ -92,6 +109,7 @@ pub(crate) fn range(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
 mod tests {
     use super::*;
     use clap::ColorChoice;
+    use pomona::WarningCode;
 
     #[test]
     fn the_same_facts_for_people_and_programs() {
@@ -108,6 +126,21 @@ mod tests {
             json,
             r#"{"path":"a.png","kind":"colour image","size":[4,3],"depth_scale":0.001}"#
         );
+    }
+
+    #[test]
+    fn warnings_come_last() {
+        let mut facts = Facts::new(Path::new("a.json"), "camera");
+        facts.say("width", 3);
+        facts.warn([Warning::new(WarningCode::FrameIdAssumed, "no frame")]);
+        let text = facts.text(Terminal::new(ColorChoice::Never));
+        assert_eq!(
+            text,
+            "a.json: camera\n  width  3\n  note: no frame [frame_id_assumed]\n"
+        );
+        let json = serde_json::to_value(&facts).unwrap();
+        assert_eq!(json["warnings"][0]["code"], "frame_id_assumed");
+        assert_eq!(json["warnings"][0]["level"], "note");
     }
 
     #[test]

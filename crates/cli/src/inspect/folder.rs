@@ -26,6 +26,7 @@ fn frame(path: &Path) -> anyhow::Result<Facts> {
     let frame = Frame::read(path)?;
     let mut facts = Facts::new(path, "RGB-D frame");
     facts.say("id", frame.id.clone());
+    facts.warn(frame.warnings.iter().cloned());
     facts.size(frame.color.width, frame.color.height);
     add_camera(&mut facts, &frame.camera);
     add_fill(&mut facts, &frame.depth);

@@ -27,4 +27,5 @@ mod segment;
 mod settings;
 mod shell;
 mod tutorial;
+mod warnings;
 mod wood;

@@ -1,6 +1,6 @@
 use super::{Camera, json, ros};
 use crate::CloudError;
-use pomona_files::{Malformed, write_atomically};
+use pomona_files::{Malformed, WithWarnings, write_atomically};
 use std::path::Path;
 
 impl Camera {
@@ -8,20 +8,32 @@ impl Camera {
     /// `CameraInfo` in YAML, recognised by extension and content.
     ///
     /// ROS and Open3D files do not say how depth is stored; then a depth unit is
-    /// one millimetre, the default of both.
+    /// one millimetre, the default of both. [`Camera::read_with_warnings`] tells what was assumed.
     ///
     /// # Errors
     ///
     /// [`CloudError::File`], [`CloudError::Camera`].
     pub fn read(path: impl AsRef<Path>) -> Result<Self, CloudError> {
+        Ok(Self::read_with_warnings(path)?.value)
+    }
+
+    /// As [`Camera::read`], with what the file leaves open and had to be assumed.
+    ///
+    /// # Errors
+    ///
+    /// [`CloudError::File`], [`CloudError::Camera`].
+    pub fn read_with_warnings(path: impl AsRef<Path>) -> Result<WithWarnings<Self>, CloudError> {
         let path = path.as_ref();
         let bytes = pomona_files::read(path)?;
         let camera = Self::parse(path, &bytes).map_err(|fault| fault.at(path))?;
-        camera.validate().map_err(|source| CloudError::Camera {
-            path: path.to_owned(),
-            source,
-        })?;
-        Ok(camera)
+        camera
+            .value
+            .validate()
+            .map_err(|source| CloudError::Camera {
+                path: path.to_owned(),
+                source,
+            })?;
+        Ok(camera.in_file(path))
     }
 
     /// Writes the project's JSON.
@@ -39,7 +51,7 @@ impl Camera {
         Ok(())
     }
 
-    pub(super) fn parse(path: &Path, bytes: &[u8]) -> Result<Self, Malformed> {
+    pub(super) fn parse(path: &Path, bytes: &[u8]) -> Result<WithWarnings<Self>, Malformed> {
         let text = std::str::from_utf8(bytes).map_err(|e| {
             let place = format!("byte {}", e.valid_up_to());
             Malformed::new(

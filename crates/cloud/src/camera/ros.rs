@@ -1,8 +1,8 @@
 //! ROS camera information in YAML: the file that `camera_calibration` writes, and the
 //! `sensor_msgs/CameraInfo` message as `ros2 topic echo` (or `rostopic echo`) prints it.
 
-use super::{Camera, Distortion};
-use pomona_files::Malformed;
+use super::{Camera, Distortion, assumed};
+use pomona_files::{Malformed, WithWarnings};
 use serde::Deserialize;
 
 const REMEDY: &str = "give a camera_calibration file (image_width, image_height, camera_matrix, distortion_model, distortion_coefficients) or an echoed CameraInfo message (width, height, k, d, distortion_model)";
@@ -54,7 +54,7 @@ impl Numbers {
     }
 }
 
-pub(super) fn parse(text: &str) -> Result<Camera, Malformed> {
+pub(super) fn parse(text: &str) -> Result<WithWarnings<Camera>, Malformed> {
     let info: CameraInfo = serde_saphyr::from_str(first_document(text)).map_err(|e| {
         let place = e
             .location()
@@ -78,26 +78,18 @@ pub(super) fn parse(text: &str) -> Result<Camera, Malformed> {
             model: info.distortion_model,
             coefficients,
         });
-    let frame_id = if info.header.frame_id.is_empty() {
-        info.camera_name
-            .unwrap_or_else(|| "camera_color_optical_frame".to_owned())
-    } else {
-        info.header.frame_id
-    };
-    // REP-118: 16-bit depth is in millimetres.
-    let depth_scale = 0.001;
-    let (width, height) = (info.width, info.height);
-    Ok(Camera {
-        width,
-        height,
-        fx,
-        fy,
-        cx,
-        cy,
-        depth_scale,
-        frame_id,
-        distortion,
-    })
+    // REP-118: 16-bit depth is in millimetres, which is what `new` takes.
+    let mut camera = Camera::new([info.width, info.height], [fx, fy], [cx, cy]);
+    camera.distortion = distortion;
+    let mut warnings = Vec::new();
+    let header = Some(info.header.frame_id);
+    let named = header.filter(|id| !id.is_empty()).or(info.camera_name);
+    match named {
+        Some(frame_id) => camera.frame_id = frame_id,
+        None => warnings.push(assumed::frame_id(&camera)),
+    }
+    warnings.push(assumed::depth_scale(&camera));
+    Ok(WithWarnings::new(camera, warnings))
 }
 
 /// The text up to the `---` that ends a message in an echo of many.
@@ -159,7 +151,7 @@ header:
 
     #[test]
     fn reads_a_calibration_file() {
-        let camera = parse(CALIBRATION).unwrap();
+        let camera = parse(CALIBRATION).unwrap().value;
         assert_eq!(
             (camera.width, camera.height, camera.fx, camera.cy),
             (640, 480, 500.5, 240.25)
@@ -175,7 +167,7 @@ header:
 
     #[test]
     fn reads_an_echoed_message_up_to_the_next() {
-        let camera = parse(ECHO).unwrap();
+        let camera = parse(ECHO).unwrap().value;
         assert_eq!(camera.frame_id, "rgb_camera_link");
         assert_eq!(
             camera.distortion.as_ref().unwrap().model,
@@ -183,13 +175,13 @@ header:
         );
         camera.validate().unwrap();
         let ros1 = ECHO.replace("\nk:", "\nK:").replace("\nd:", "\nD:");
-        assert_eq!(parse(&ros1).unwrap(), camera);
+        assert_eq!(parse(&ros1).unwrap().value, camera);
     }
 
     #[test]
     fn no_coefficients_are_no_distortion() {
         let none = CALIBRATION.replace("[0.1, -0.2, 0.001, 0.002, 0]", "[0, 0, 0, 0, 0]");
-        assert_eq!(parse(&none).unwrap().distortion, None);
+        assert_eq!(parse(&none).unwrap().value.distortion, None);
     }
 
     #[test]

@@ -41,6 +41,7 @@ fn frame() -> Frame {
             y_max: 9.0,
             score: 0.5,
         }]),
+        warnings: Vec::new(),
     }
 }
 

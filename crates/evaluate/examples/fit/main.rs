@@ -2,13 +2,15 @@
 //! xtask fit-confidence`.
 //!
 //! Each is a logistic model, of 'this box holds an apple', of 'this candidate is wood' and of 'the direction is at most 20
-//! degrees off'. Prints the coefficients beside those in use, and how both do in a cross-validation over the scenes.
+//! degrees off'. Prints the coefficients beside those in use, and how both do in a cross-validation over the scenes. `spread`
+//! shows on the same scenes how well the stated uncertainties hold: `cargo xtask fit-spread`.
 
 mod answers;
 mod boxes;
 mod candidates;
 mod logistic;
 mod scenes;
+mod spread;
 
 use logistic::Weighting;
 use pomona::{
@@ -40,6 +42,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                 Weighting::Equal,
             )
         }
-        _ => Err("which one: `presence`, `wood` or `confidence`?".into()),
+        Some("spread") => {
+            spread::print(&scenes::observe(&spread::of_scene)?);
+            Ok(())
+        }
+        _ => Err("which one: `presence`, `wood`, `confidence` or `spread`?".into()),
     }
 }

@@ -1,6 +1,7 @@
 use super::apple::{AppleAnswer, Evidence};
 use crate::config::Method;
 use crate::detection::DetectionSummary;
+use pomona_files::Warning;
 
 /// The answers for a frame.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,6 +17,8 @@ pub struct FrameAnswer {
     pub camera_frame_id: String,
     /// What found the boxes; `None` where they came with the frame or in a file.
     pub detection: Option<DetectionSummary>,
+    /// What was assumed about the frame, or is doubtful about it.
+    pub warnings: Vec<Warning>,
     /// One entry for each box, in the boxes' order.
     pub apples: Vec<AppleAnswer>,
 }
@@ -35,6 +38,7 @@ impl FrameAnswer {
             id: id.into(),
             camera_frame_id: camera_frame_id.into(),
             detection: None,
+            warnings: Vec::new(),
             apples,
         }
     }

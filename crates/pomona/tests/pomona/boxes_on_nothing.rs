@@ -5,10 +5,13 @@ use pomona::record::PicksRecord;
 use pomona::{CheckedFrame, Config, Method, Picker, Status, find_apples};
 use pomona_cloud::{ColorImage, Frame, PixelBox};
 use pomona_detect::{DetectError, Detection, Detector, DetectorReport};
-use pomona_scenes::{Scene, Suite};
+use pomona_scenes::{AppleTruth, Scene, Suite};
 
 /// Confidence from which an answer is acted on.
 const SURE: f64 = 0.5;
+
+/// Share of an apple that shows, from which nothing else is fitted in its place.
+const WELL_SEEN: f64 = 0.6;
 
 /// Boxes on a grid over the whole frame, of `scale` times the first box's size, that touch none of its boxes.
 fn grid(frame: &Frame, scale: f64) -> Vec<PixelBox> {
@@ -84,14 +87,21 @@ fn apples_keep_their_picks_with_their_confidence() {
     for scene in [scene(Suite::Demo, 0), scene(Suite::Row, 7000)] {
         let checked = answer(&with, &scene.frame, 0);
         let taken = answer(&without, &scene.frame, 0);
+        let mut kept = 0;
         for (a, b) in checked.apples.iter().zip(&taken.apples) {
-            assert!(a.presence.is_some_and(|p| p > 0.9), "{:?}", a.presence);
-            assert_eq!(b.presence, None);
-            let answers = [a, b].map(|a| (a.status, a.pick, a.candidates.clone()));
-            assert_eq!(answers[0], answers[1]);
-            let lost = b.confidence.unwrap() - a.confidence.unwrap();
-            assert!((0.0..0.01).contains(&lost), "{lost}");
+            let of_it = |apple: &&AppleTruth| apple.bounds.name == a.bounds.name;
+            let truth = scene.truth.apples.iter().find(of_it).unwrap();
+            // What is mostly hidden may be fitted to the leaf before it, and is then no apple.
+            if !b.is_picked() || truth.visible_share.unwrap_or(1.0) < WELL_SEEN {
+                continue;
+            }
+            kept += 1;
+            assert_eq!((a.status, a.pick), (b.status, b.pick));
+            let (presence, stated) = (a.presence.unwrap(), b.confidence.unwrap());
+            assert!(presence > 0.9 && b.presence.is_none(), "{presence}");
+            assert_eq!(a.confidence, Some(stated.min(presence)));
         }
+        assert!(kept >= 8, "{kept} apples");
     }
 }
 

@@ -65,6 +65,8 @@ enum Command {
     Ablate(ablate::Args),
     /// Fits the coefficients of the confidence again, and prints them beside those in use
     FitConfidence,
+    /// Fits the coefficients of the presence of an apple again, and prints them beside those in use
+    FitPresence,
     /// The same of the probability that a branch candidate is wood
     FitWood,
     /// How well the stated uncertainties of directions and centres hold on the same scenes
@@ -89,6 +91,7 @@ fn main() -> ExitCode {
         Command::Regress(args) => regress::run(&args),
         Command::Ablate(args) => ablate::run(&args),
         Command::FitConfidence => fit::run("confidence"),
+        Command::FitPresence => fit::run("presence"),
         Command::FitWood => fit::run("wood"),
         Command::FitSpread => fit::run("spread"),
         Command::Standalone(args) => standalone::run(&args),

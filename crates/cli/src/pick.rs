@@ -18,7 +18,7 @@ pub(crate) use files::PICKS;
 
 use jobs::{Job, jobs};
 use pomona::record::PicksRecord;
-use pomona::{FrameAnswer, RobotFromCamera};
+use pomona::{FrameAnswer, RobotFromCamera, Status};
 use session::Session;
 use std::path::Path;
 
@@ -126,6 +126,9 @@ fn answer_all(
                 for warning in &answer.warnings {
                     bar.suspend(|| terminal.warn(&answer.id, warning));
                 }
+                if let Some(note) = empty_boxes(&answer) {
+                    bar.suspend(|| terminal.note(&note));
+                }
                 if !arguments.json {
                     let separator = if answers.is_empty() { "" } else { "\n" };
                     let text = separator.to_owned() + &table(&answer, terminal);
@@ -140,6 +143,22 @@ fn answer_all(
     }
     bar.finish_and_clear();
     Ok(answers)
+}
+
+/// What to do about boxes that hold no apple, where there are any.
+fn empty_boxes(answer: &FrameAnswer) -> Option<String> {
+    let empty = answer.apples.iter().filter(|a| a.status == Status::NoApple);
+    let count = empty.count();
+    let boxes = match count {
+        0 => return None,
+        1 => "1 box is".to_owned(),
+        _ => format!("{count} boxes are"),
+    };
+    Some(format!(
+        "{}: {boxes} refused as `no_apple`, since depth and colour show no apple there; where a person has drawn the \
+         boxes, `--set robust.check_boxes=false` takes them as they are",
+        answer.id
+    ))
 }
 
 /// Fuses the answers of all frames; each has a pose.

@@ -48,6 +48,7 @@
 mod apple_row;
 mod apples_csv;
 mod calipers;
+mod drawn_boxes;
 mod error;
 mod evaluation;
 mod matching;
@@ -66,6 +67,7 @@ pub use calipers::{
     AlignedApple, Alignment, CALIPER_SCHEMA, Caliper, CaliperFrame, CaliperReport, CaliperResult,
     CaliperRow, measure_calipers, read_calipers,
 };
+pub use drawn_boxes::{boxes_about, boxes_on_nothing};
 pub use error::EvaluateError;
 pub use evaluation::{Evaluation, SCHEMA};
 pub use method::PickMethod;

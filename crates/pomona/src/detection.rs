@@ -7,7 +7,6 @@ mod grid_readings;
 mod joining;
 mod mark;
 mod origin;
-mod roundness;
 mod search;
 mod summary;
 

@@ -54,6 +54,7 @@
 //! Gao, Zhou, Cao and Jiang 2022, "An Algorithm for Calculating Apple Picking Direction
 //! Based on 3D Vision", Agriculture 12(8), 1170, doi 10.3390/agriculture12081170.
 
+mod chromaticity;
 mod config;
 mod detection;
 mod error;
@@ -66,6 +67,7 @@ mod picker;
 pub mod record;
 mod robot;
 mod robust;
+mod roundness;
 mod seed;
 
 pub use config::{
@@ -81,13 +83,13 @@ pub use frame::CheckedFrame;
 pub use optics::DepthQuality;
 pub use outcome::{
     AppleAnswer, ApplePlan, BranchCandidate, CONFIDENCE_FEATURES, DirectionSource, Evidence,
-    FallbackDirection, FittedApple, FittedBranch, FrameAnswer, NearestObstacle, PickDirection,
-    PlannedApproach, PlannedTurn, RobotFromCamera, RobotTarget, StageTimes, Status, WOOD_FEATURES,
-    Weighed,
+    FallbackDirection, FittedApple, FittedBranch, FrameAnswer, NearestObstacle, PRESENCE_FEATURES,
+    PickDirection, PlannedApproach, PlannedTurn, RobotFromCamera, RobotTarget, StageTimes, Status,
+    WOOD_FEATURES, Weighed,
 };
 pub use picker::Picker;
 pub use pomona_approach::{ApproachConfig, Gripper};
 pub use pomona_files::{Level, Warning, WarningCode};
 pub use pomona_settings::ConfigError;
 pub use robot::{Robot, RobotPlan};
-pub use robust::{CONFIDENCE_MODEL, WOOD_MODEL};
+pub use robust::{CONFIDENCE_MODEL, PRESENCE_MODEL, WOOD_MODEL};

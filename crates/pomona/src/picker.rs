@@ -143,7 +143,8 @@ impl Run<'_> {
         let mut answer = if refused && !self.config.detection.pick_marked {
             AppleAnswer::new(id, bounds, Status::Implausible)
         } else {
-            let mut answer = self.by_method(id, bounds, buffers);
+            let check = self.config.robust.check_boxes && !refused;
+            let mut answer = self.by_method(id, bounds, check, buffers);
             self.add_robot(&mut answer);
             self.add_fallback(&mut answer, &mut buffers.points);
             answer
@@ -153,7 +154,14 @@ impl Run<'_> {
         answer
     }
 
-    fn by_method(&self, id: usize, bounds: PixelBox, buffers: &mut Buffers) -> AppleAnswer {
+    /// `check` is whether `robust` may find that the box holds no apple.
+    fn by_method(
+        &self,
+        id: usize,
+        bounds: PixelBox,
+        check: bool,
+        buffers: &mut Buffers,
+    ) -> AppleAnswer {
         let mut rng = apple_rng(self.seed, &self.frame.frame().id, id);
         let (frame, config) = (self.frame, self.config);
         match config.method {
@@ -163,7 +171,7 @@ impl Run<'_> {
             }
             Method::Robust => {
                 let scratch = &mut buffers.scratch;
-                robust::pick_apple(frame, config, id, bounds, &mut rng, scratch)
+                robust::pick_apple(frame, config, (id, bounds), check, &mut rng, scratch)
             }
         }
     }

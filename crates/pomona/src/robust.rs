@@ -11,6 +11,7 @@ mod cross_section;
 mod likeness;
 mod line_hypothesis;
 mod nearest;
+mod presence;
 mod ray;
 mod section_set;
 mod shell;
@@ -24,6 +25,7 @@ mod wood;
 
 pub use confidence::CONFIDENCE_MODEL;
 pub use likeness::WOOD_MODEL;
+pub use presence::PRESENCE_MODEL;
 
 use crate::config::{Config, RobustConfig};
 use crate::frame::CheckedFrame;
@@ -38,6 +40,7 @@ use nalgebra::Matrix3;
 use nearest::Ranked;
 use pomona_cloud::{PixelBox, PixelWindow};
 use pomona_transforms::{Direction, Position, PositionCovariance};
+use presence::LEAST_PRESENCE;
 use rand_chacha::ChaCha8Rng;
 use shell::{APPLE, Shell};
 use std::time::Instant;
@@ -70,43 +73,53 @@ pub(crate) struct Scratch {
     sections: Vec<(f64, CrossSection)>,
 }
 
-/// Answers one box, stage by stage. `scratch` is memory that serves one apple after another.
+/// Answers one box, stage by stage; `check` is whether it may turn out to hold no apple. `scratch` is memory that serves
+/// one apple after another.
 pub(crate) fn pick_apple(
     frame: &CheckedFrame<'_>,
     config: &Config,
-    id: usize,
-    bounds: PixelBox,
+    (id, bounds): (usize, PixelBox),
+    check: bool,
     rng: &mut ChaCha8Rng,
     scratch: &mut Scratch,
 ) -> AppleAnswer {
     let mut answer = AppleAnswer::new(id, bounds, Status::Picked);
     let (width, height) = frame.size();
     let window = window_of_box(&answer.bounds, width, height);
-    let found =
-        find_apple(frame, config, window, rng, &mut scratch.apple, &mut answer).and_then(|apple| {
-            find_branch(
-                frame,
-                &config.robust,
-                window,
-                &apple,
-                rng,
-                scratch,
-                &mut answer,
-            )
-        });
+    let found = find_apple(
+        frame,
+        config,
+        window,
+        rng,
+        &mut scratch.apple,
+        check,
+        &mut answer,
+    )
+    .and_then(|apple| {
+        find_branch(
+            frame,
+            &config.robust,
+            window,
+            &apple,
+            rng,
+            scratch,
+            &mut answer,
+        )
+    });
     if let Err(status) = found {
         answer.status = status;
     }
     answer
 }
 
-/// Fits the spheroid of the apple whose box is `window`.
+/// Fits the spheroid of the apple whose box is `window`; with `check`, refuses what is more probably no apple.
 fn find_apple(
     frame: &CheckedFrame<'_>,
     config: &Config,
     window: PixelWindow,
     rng: &mut ChaCha8Rng,
     buffers: &mut AppleBuffers,
+    check: bool,
     answer: &mut AppleAnswer,
 ) -> Result<SeenApple, Status> {
     let start = Instant::now();
@@ -127,7 +140,18 @@ fn find_apple(
         window,
     };
     let found = search.fit(rng, buffers);
+    let (color, smear) = (&frame.frame().color, frame.depth_quality().smear());
+    let checked = found.as_ref().ok().filter(|_| check);
+    let features = checked.map(|found| presence::features(&search, buffers, found, color, smear));
     answer.times.sphere = start.elapsed();
+    answer.evidence.presence_features = features;
+    answer.presence = features.as_ref().map(presence::probability);
+    if answer
+        .presence
+        .is_some_and(|presence| presence < LEAST_PRESENCE)
+    {
+        return Err(Status::NoApple);
+    }
     found
 }
 
@@ -228,6 +252,7 @@ fn decide(
         / best.distance.max(1e-3);
     let features = confidence::features(found, ranked, scatter);
     let confidence = features.as_ref().map_or(0.0, confidence::probability) * believed;
+    let confidence = confidence.min(most_confidence(answer));
     answer.evidence.confidence_features = features;
     answer.confidence = Some(confidence);
     let foot = Position::new(best.foot);
@@ -260,7 +285,8 @@ fn decide_by_wood(
     };
     let center = Position::new(found.fit.spheroid.center);
     let candidate = &best.candidate;
-    answer.confidence = Some(best.nearest);
+    let confidence = best.nearest.min(most_confidence(answer));
+    answer.confidence = Some(confidence);
     let foot = Position::new(candidate.foot);
     answer.branch = Some(FittedBranch::new(
         foot,
@@ -268,7 +294,7 @@ fn decide_by_wood(
         candidate.support.pixels,
         candidate.rms,
     ));
-    if best.nearest < config.least_confidence {
+    if confidence < config.least_confidence {
         return Err(wood::refusal(found, ranked));
     }
     let pick = PickDirection::new(&center, foot).ok_or(Status::NoBranch)?;
@@ -277,6 +303,11 @@ fn decide_by_wood(
         ..pick
     });
     Ok(())
+}
+
+/// No direction is surer than that there is an apple. Its own probability was fitted to boxes of apples.
+fn most_confidence(answer: &AppleAnswer) -> f64 {
+    answer.presence.unwrap_or(1.0)
 }
 
 /// Standard deviation of the direction to a candidate's foot, radians.

@@ -23,18 +23,39 @@ pub(crate) struct Observation<const N: usize> {
     pub(crate) right: bool,
 }
 
+/// By how much the observations that are right count, those that are wrong counting 1.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Weighting {
+    /// As much.
+    Equal,
+    /// So much that together they make this share of all.
+    Share(f64),
+}
+
+impl Weighting {
+    fn of_right(self, right: usize, wrong: usize) -> f64 {
+        match self {
+            Self::Equal => 1.0,
+            Self::Share(share) => share / (1.0 - share) * wrong as f64 / right.max(1) as f64,
+        }
+    }
+}
+
 /// Prints the model fitted to `observations` beside the one in use.
 pub(crate) fn print<const N: usize>(
     names: &[&str; N],
     in_use: &[f64; N],
     observations: &[Observation<N>],
+    weighting: Weighting,
 ) -> Result<(), Box<dyn std::error::Error>> {
     let right = observations.iter().filter(|o| o.right).count();
     println!(
         "{} observations, {right} of them right\n",
         observations.len()
     );
-    let fitted = fit(&observations.iter().collect::<Vec<_>>()).ok_or("the fit has no solution")?;
+    let weight = weighting.of_right(right, observations.len() - right);
+    let all: Vec<_> = observations.iter().collect();
+    let fitted = fit(&all, weight).ok_or("the fit has no solution")?;
     let in_use = SVector::from(*in_use);
     println!("| feature | fitted | in use |\n|---|---|---|");
     for ((name, fitted), in_use) in names.iter().zip(&fitted).zip(&in_use) {
@@ -44,7 +65,7 @@ pub(crate) fn print<const N: usize>(
     for fold in 0..FOLDS {
         let (out, kept): (Vec<_>, Vec<_>) =
             observations.iter().partition(|o| o.scene % FOLDS == fold);
-        let model = fit(&kept).ok_or("a part of the fit has no solution")?;
+        let model = fit(&kept, weight).ok_or("a part of the fit has no solution")?;
         left_out.extend(out.iter().map(|o| (o.suite, judged(&model, o))));
     }
     let used = observations.iter().map(|o| (o.suite, judged(&in_use, o)));
@@ -80,7 +101,8 @@ fn probability<const N: usize>(model: &SVector<f64, N>, features: &SVector<f64, 
 }
 
 /// The coefficients with the largest posterior; `None` where the normal equations are singular. The first feature is 1.
-fn fit<const N: usize>(observations: &[&Observation<N>]) -> Option<SVector<f64, N>> {
+/// What is right counts `weight`, what is wrong 1.
+fn fit<const N: usize>(observations: &[&Observation<N>], weight: f64) -> Option<SVector<f64, N>> {
     let n = observations.len() as f64;
     let mean = observations
         .iter()
@@ -110,8 +132,9 @@ fn fit<const N: usize>(observations: &[&Observation<N>]) -> Option<SVector<f64, 
         let mut gradient = -model.component_mul(&precision);
         for (z, right) in &rows {
             let p = probability(&model, z);
-            normal += z * z.transpose() * (p * (1.0 - p));
-            gradient += z * (right - p);
+            let w = if *right > 0.5 { weight } else { 1.0 };
+            normal += z * z.transpose() * (w * p * (1.0 - p));
+            gradient += z * (w * (right - p));
         }
         model += normal.cholesky()?.solve(&gradient);
     }

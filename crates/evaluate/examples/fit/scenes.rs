@@ -36,6 +36,8 @@ pub(crate) fn observe<T: Send>(
     let mut config = Config::default();
     // Below it an answer is refused: the fit needs those as well.
     config.robust.least_confidence = 0.0;
+    // All of these boxes hold apples, and the models are of those.
+    config.robust.check_boxes = false;
     let picker = Picker::new(config)?;
     let mut observations = Vec::new();
     let mut before = 0;

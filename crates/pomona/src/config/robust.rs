@@ -45,6 +45,9 @@ settings! {
         /// Standard deviation of the stem's angle to the image's upward direction. Larger: for apples that hang askew,
         /// and less is known of occluded ones.
         stem_sd_rad: f64 = 0.7, "radians", above(0.0).at_most(1000.0);
+        /// Whether a box is refused where depth and colour show more probably no apple than one, whoever drew it. Off
+        /// for boxes that a person has drawn about apples: what is hidden or smeared beyond recognition is answered too.
+        check_boxes: bool = true, "yes or no", any();
         /// Fewest readings in a box that make an apple. Fewer: small and occluded apples are answered, and less
         /// reliably.
         min_readings: usize = 20, "count", within(1.0, 1e5);

@@ -1,5 +1,6 @@
 //! The colour of a frame's own apples.
 
+use crate::chromaticity::chromaticity;
 use nalgebra::{Matrix2, Vector2};
 use pomona_cloud::{ColorImage, DepthImage};
 
@@ -25,7 +26,7 @@ impl Palette {
     /// Learns from the pixels of one apple.
     pub(super) fn learn(&mut self, color: &ColorImage, pixels: impl Iterator<Item = u32>) {
         let mut any = false;
-        for c in pixels.filter_map(|pixel| chromaticity(color, pixel)) {
+        for c in pixels.filter_map(|pixel| chromaticity(color, pixel as usize)) {
             self.count += 1.0;
             self.sum += c;
             self.squares += c * c.transpose();
@@ -57,20 +58,13 @@ impl Shade {
     /// Share of the pixels that have the apples' colour.
     pub(super) fn share(&self, color: &ColorImage, pixels: impl Iterator<Item = u32>) -> f64 {
         let (mut all, mut alike) = (0usize, 0usize);
-        for c in pixels.filter_map(|pixel| chromaticity(color, pixel)) {
+        for c in pixels.filter_map(|pixel| chromaticity(color, pixel as usize)) {
             let d = c - self.mean;
             all += 1;
             alike += usize::from(d.dot(&(self.precision * d)) <= WITHIN);
         }
         alike as f64 / all.max(1) as f64
     }
-}
-
-/// `None` for a pixel outside of the image, or too dark to have a colour.
-fn chromaticity(color: &ColorImage, pixel: u32) -> Option<Vector2<f64>> {
-    let [r, g, b] = color.pixels.get(pixel as usize)?.map(f64::from);
-    let sum = r + g + b;
-    (sum >= 45.0).then(|| Vector2::new(r / sum, g / sum))
 }
 
 /// The two images have one size, and so one numbering of pixels.

@@ -2,9 +2,9 @@
 
 use super::grid_readings::{GridReadings, SphereSupport};
 use super::mark::Mark;
-use super::roundness::Roundness;
 use crate::config::{Config, DetectionConfig, Radii};
 use crate::optics::{DepthNoise, Projection, window_of_box};
+use crate::roundness::Roundness;
 use nalgebra::{Matrix4, Point3, Vector3, Vector4};
 use pomona_cloud::{DepthImage, PixelBox};
 use pomona_fit::{

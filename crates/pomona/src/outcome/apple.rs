@@ -2,6 +2,7 @@ use super::confidence::CONFIDENCE_FEATURES;
 use super::direction::{FallbackDirection, PickDirection};
 use super::fitted::{BranchCandidate, FittedApple, FittedBranch};
 use super::plan::ApplePlan;
+use super::presence::PRESENCE_FEATURES;
 use super::robot::RobotTarget;
 use super::status::Status;
 use super::wood::WOOD_FEATURES;
@@ -28,6 +29,8 @@ pub struct AppleAnswer {
     pub branch: Option<FittedBranch>,
     /// The direction of approach: present exactly where the status is [`Status::Picked`].
     pub pick: Option<PickDirection>,
+    /// Probability that the box holds an apple, where the method states one.
+    pub presence: Option<f64>,
     /// Probability that the direction is at most 20 degrees off, where the method states one.
     pub confidence: Option<f64>,
     /// The branches that were weighed against each other, the best first.
@@ -57,6 +60,7 @@ impl AppleAnswer {
             apple: None,
             branch: None,
             pick: None,
+            presence: None,
             confidence: None,
             candidates: Vec::new(),
             view_from: None,
@@ -85,6 +89,10 @@ pub struct Evidence {
     /// What the confidence of `robust` is computed from, in the order of
     /// [`CONFIDENCE_FEATURES`](crate::CONFIDENCE_FEATURES); absent where there is no candidate.
     pub confidence_features: Option<[f64; CONFIDENCE_FEATURES.len()]>,
+    /// What the presence of an apple is computed from by `robust`, in the order of
+    /// [`PRESENCE_FEATURES`](crate::PRESENCE_FEATURES); absent where no spheroid was fitted, and where boxes are not
+    /// checked.
+    pub presence_features: Option<[f64; PRESENCE_FEATURES.len()]>,
     /// What `robust` weighs each of the branches by that it found in depth; one branch may be there several times.
     pub weighed: Vec<Weighed>,
 }

@@ -18,6 +18,8 @@ pub enum Status {
     NoSphere,
     /// The least-squares sphere of the best support leaves the radius bounds.
     ImplausibleRadius,
+    /// What was fitted is more probably no apple than one.
+    NoApple,
     /// No line at an allowed distance has enough support.
     NoBranch,
     /// Several branches in different directions are as likely as each other.
@@ -38,6 +40,7 @@ impl Status {
             Self::TooFewPoints => "too_few_points",
             Self::NoSphere => "no_sphere",
             Self::ImplausibleRadius => "implausible_radius",
+            Self::NoApple => "no_apple",
             Self::NoBranch => "no_branch",
             Self::AmbiguousBranch => "ambiguous_branch",
             Self::LeafLike => "leaf_like",

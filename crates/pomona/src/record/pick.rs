@@ -34,6 +34,10 @@ pub struct PickRecord {
     pub pixel_box: BoxRecord,
     /// What became of it.
     pub status: Status,
+    /// Probability that the box holds an apple; below one half it is refused. Method `robust`, where it checks boxes.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(test, schemars(range(min = 0.0, max = 1.0)))]
+    pub presence: Option<f64>,
     /// The apple's sphere.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub apple: Option<AppleRecord>,
@@ -126,6 +130,7 @@ impl From<&AppleAnswer> for PickRecord {
             id: answer.id,
             pixel_box: BoxRecord::from(answer),
             status: answer.status,
+            presence: answer.presence,
             apple: answer.apple.as_ref().map(AppleRecord::from),
             branch: answer.branch.as_ref().map(BranchRecord::from),
             foot: pick.map(|p| p.foot.point().into()),

@@ -68,8 +68,8 @@ pub(crate) struct SeenApple {
 pub(crate) struct AppleBuffers {
     pub(crate) patch: DepthPatch,
     blocks: Blocks,
-    points: Vec<(Point3<f64>, f64)>,
-    rays: Vec<Unit<Vector3<f64>>>,
+    pub(crate) points: Vec<(Point3<f64>, f64)>,
+    pub(crate) rays: Vec<Unit<Vector3<f64>>>,
 }
 
 /// Pixels by which the patch of an apple is wider than its box: room for outlines that the box cuts.
@@ -96,8 +96,7 @@ impl AppleSearch<'_> {
         buffers: &mut AppleBuffers,
     ) -> Result<SeenApple, Status> {
         let (config, noise) = (self.config, self.noise);
-        let window = self.window;
-        let side = (window.width().max(window.height()) / config.blocks).max(1);
+        let side = self.block_side();
         let readings = self.gather(side, buffers);
         if readings == 0 {
             return Err(Status::NoDepth);
@@ -157,13 +156,18 @@ impl AppleSearch<'_> {
         readings
     }
 
+    /// Side of a block, pixels.
+    pub(crate) fn block_side(&self) -> usize {
+        (self.window.width().max(self.window.height()) / self.config.blocks).max(1)
+    }
+
     /// The noise of an average as a share of that of one reading, where neighbours share it.
-    fn shared(&self, share: f64) -> f64 {
+    pub(crate) fn shared(&self, share: f64) -> f64 {
         (share * self.noise.correlation_px).min(1.0)
     }
 
     /// Metres of a pixel at the spheroid's depth.
-    fn pixel(&self, spheroid: &Spheroid) -> f64 {
+    pub(crate) fn pixel(&self, spheroid: &Spheroid) -> f64 {
         self.projection.pixel_m(spheroid.center.z)
     }
 

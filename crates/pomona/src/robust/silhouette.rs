@@ -115,3 +115,14 @@ pub(crate) fn agreement(rays: &[Unit<Vector3<f64>>], spheroid: &Spheroid, tolera
         .sum();
     balance / DIRECTIONS as f64
 }
+
+/// Of all directions, the share whose ray grazes the spheroid within `tolerance`.
+pub(crate) fn agreeing_share(
+    rays: &[Unit<Vector3<f64>>],
+    spheroid: &Spheroid,
+    tolerance: f64,
+) -> f64 {
+    let off = |ray| spheroid.signed_distance(&nearest_on_ray(ray, &spheroid.center));
+    let agreeing = rays.iter().filter(|ray| off(ray).abs() < tolerance);
+    agreeing.count() as f64 / DIRECTIONS as f64
+}

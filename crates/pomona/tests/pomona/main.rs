@@ -6,6 +6,7 @@
 )]
 
 mod answers;
+mod boxes_on_nothing;
 mod detection;
 mod every_setting;
 mod fallback;

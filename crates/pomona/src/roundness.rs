@@ -6,10 +6,10 @@ use pomona_geometry::Sphere;
 /// The lesser of a surface's two principal curvatures as a share of a sphere's: 1 for the sphere itself, 0 for a cylinder
 /// and for a plane, negative for a saddle.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Roundness {
-    pub(super) least: f64,
+pub(crate) struct Roundness {
+    pub(crate) least: f64,
     /// Its standard deviation.
-    pub(super) least_sd: f64,
+    pub(crate) least_sd: f64,
 }
 
 /// Points farther over the sphere's visible cap than this are left out, as a cosine: their tangential
@@ -25,7 +25,7 @@ impl Roundness {
     /// where e is flat. What the points do not determine has a large standard deviation.
     ///
     /// `None` for fewer than 8 points.
-    pub(super) fn of(
+    pub(crate) fn of(
         points: impl Iterator<Item = Point3<f64>> + Clone,
         sphere: &Sphere,
         sigma: f64,

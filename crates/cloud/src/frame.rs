@@ -2,9 +2,10 @@ mod points;
 
 use crate::boxes::validate_all;
 use crate::{
-    BoxFormat, Camera, CloudError, ColorImage, DepthImage, PixelBox, read_boxes, write_boxes,
+    BoxFormat, Camera, CameraOptions, CloudError, ColorImage, DepthImage, PixelBox, read_boxes,
+    write_boxes,
 };
-use pomona_files::{FileError, Malformed, Warning, temporary_beside};
+use pomona_files::{FileError, Malformed, Warning, WarningCode, temporary_beside};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -31,7 +32,11 @@ const CAMERA: &[&str] = &[
     "camera.yaml",
     "camera.yml",
     "camera_info.yaml",
+    "camera_info.yml",
+    "camera_info.json",
+    "ost.yaml",
     "intrinsic.json",
+    "intrinsics.json",
 ];
 
 /// The names under which [`Frame::write`] writes.
@@ -62,27 +67,39 @@ impl Frame {
     pub const BOX_FILES: [&str; 3] = ["boxes.xml", "boxes.json", "boxes.txt"];
 
     /// Reads a frame's folder: `color.png` or `.jpg`, `depth.png`, `camera.json` (or a ROS
-    /// `camera.yaml`, `camera_info.yaml`, or Open3D's `intrinsic.json`), and
+    /// `camera.yaml`, `camera_info.yaml`, `ost.yaml`, or Open3D's `intrinsic.json`), and
     /// `boxes.xml`, `.json` or `.txt` where there is one. Of several names the first is read.
+    /// What had to be assumed is in [`Frame::warnings`].
     ///
     /// # Errors
     ///
     /// [`CloudError::MissingFile`], [`CloudError::SizeMismatch`], [`CloudError::Box`], and
     /// the errors of reading each file.
     pub fn read(dir: impl AsRef<Path>) -> Result<Self, CloudError> {
+        Self::read_with(dir, &CameraOptions::default())
+    }
+
+    /// As [`Frame::read`], with what is known about the camera beside its file.
+    ///
+    /// # Errors
+    ///
+    /// As [`Frame::read`]; [`CloudError::File`] where the options contradict the camera's file.
+    pub fn read_with(dir: impl AsRef<Path>, options: &CameraOptions) -> Result<Self, CloudError> {
         let dir = dir.as_ref();
         if let Err(source) = fs::read_dir(dir) {
             return Err(FileError::read(dir, source).into());
         }
         let color = ColorImage::read(required(dir, &Self::COLOR_FILES, "color.png or color.jpg")?)?;
         let depth = DepthImage::read(required(dir, &["depth.png"], "depth.png")?)?;
-        let camera = Camera::read_with_warnings(required(
-            dir,
-            CAMERA,
-            "camera.json (or camera.yaml, intrinsic.json)",
-        )?)?;
+        let path = required(dir, CAMERA, "camera.json (or camera.yaml, intrinsic.json)")?;
+        let options = CameraOptions {
+            image_size: Some([color.width, color.height]),
+            ..*options
+        };
+        let camera = Camera::read_with(&path, &options)?;
         let mut frame = Self::new(folder_name(dir), camera.value, color, depth);
         frame.warnings = camera.warnings;
+        frame.warnings.extend(other_cameras(dir, &path));
         frame.validate_as(dir)?;
         if let Some(path) = present(dir, &Self::BOX_FILES) {
             frame.boxes = Some(read_boxes(path, frame.color.width, frame.color.height)?);
@@ -216,6 +233,22 @@ fn present(dir: &Path, names: &[&str]) -> Option<PathBuf> {
         .iter()
         .map(|name| dir.join(name))
         .find(|path| path.exists())
+}
+
+/// Cameras beside the one that is read.
+fn other_cameras(dir: &Path, read: &Path) -> Option<Warning> {
+    let others = CAMERA.iter().filter(|name| {
+        let path = dir.join(name);
+        path != read && path.exists()
+    });
+    let others: Vec<&str> = others.copied().collect();
+    let name = read.file_name()?.to_string_lossy();
+    let message = format!(
+        "{name}: the camera of this file is taken, and not that of {} beside it; leave one of them",
+        others.join(", ")
+    );
+    let warning = Warning::new(WarningCode::OtherCamerasIgnored, message);
+    (!others.is_empty()).then_some(warning)
 }
 
 fn required(dir: &Path, names: &[&str], expected: &'static str) -> Result<PathBuf, CloudError> {

@@ -47,7 +47,7 @@
 //!
 //! A [`Frame`] is a colour image, a depth image registered to it, their common [`Camera`], and optionally the
 //! bounding boxes of the apples. Its folder contains `color.png` (or `.jpg`), `depth.png` (16-bit grey),
-//! `camera.json` (or a ROS `CameraInfo` in YAML, or Open3D's `intrinsic.json`), and `boxes.xml`, `.json` or `.txt`
+//! `camera.json` (or a camera in the form of ROS, OpenCV, Kalibr, Open3D or `RealSense`), and `boxes.xml`, `.json` or `.txt`
 //! (VOC, COCO, YOLO). [`read_tum`] reads folders of the TUM RGB-D benchmark. A [`CocoDataset`] has the boxes of many
 //! images in one file; a [`LabelledBox`] is a box with its class.
 //!
@@ -96,7 +96,7 @@ pub use boxes::{
     BoxError, BoxFormat, CocoCategory, CocoDataset, CocoImage, CocoResult, ImageKey, LabelKind,
     LabelledBox, PixelBox, read_boxes, read_coco_results, read_labels, write_boxes,
 };
-pub use camera::{Camera, CameraError, Distortion, Lens};
+pub use camera::{Camera, CameraError, CameraOptions, Distortion, ImageKind, Lens};
 pub use cloud::PointCloud;
 pub use color::ColorImage;
 pub use depth::DepthImage;

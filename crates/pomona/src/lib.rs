@@ -67,6 +67,7 @@ pub mod record;
 mod robot;
 mod robust;
 mod seed;
+mod size_doubt;
 
 pub use config::{
     Config, DetectionConfig, FallbackConfig, FallbackKind, FruitConfig, FusionConfig, Method,

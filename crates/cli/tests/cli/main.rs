@@ -9,6 +9,8 @@ mod bad_files;
 mod bad_frames;
 mod binary;
 mod calibrate;
+mod camera_poses;
+mod cameras;
 mod convert;
 mod detect;
 mod detected;

@@ -67,6 +67,8 @@ enum Command {
     FitConfidence,
     /// The same of the probability that a branch candidate is wood
     FitWood,
+    /// How well the stated uncertainties of directions and centres hold on the same scenes
+    FitSpread,
     /// Does a copy of the engine's folder build without the rest of the workspace?
     Standalone(standalone::Args),
     /// Do our libraries still suit those who built against their last release?
@@ -88,6 +90,7 @@ fn main() -> ExitCode {
         Command::Ablate(args) => ablate::run(&args),
         Command::FitConfidence => fit::run("confidence"),
         Command::FitWood => fit::run("wood"),
+        Command::FitSpread => fit::run("spread"),
         Command::Standalone(args) => standalone::run(&args),
         Command::Semver(args) => semver::run(&args),
     };

@@ -1,6 +1,5 @@
 //! The scenes of the fits.
 
-use crate::logistic::Observation;
 use nalgebra::Point3;
 use pomona::{AppleAnswer, CheckedFrame, Config, Picker};
 use pomona_evaluate::Subject;
@@ -31,9 +30,9 @@ pub(crate) struct Apple<'a> {
 type Failure = Box<dyn std::error::Error>;
 
 /// What `of_apple` takes from every apple.
-pub(crate) fn observe<const N: usize>(
-    of_apple: &(dyn Fn(&Apple<'_>) -> Vec<Observation<N>> + Sync),
-) -> Result<Vec<Observation<N>>, Failure> {
+pub(crate) fn observe<T: Send>(
+    of_apple: &(dyn Fn(&Apple<'_>) -> Vec<T> + Sync),
+) -> Result<Vec<T>, Failure> {
     let mut config = Config::default();
     // Below it an answer is refused: the fit needs those as well.
     config.robust.least_confidence = 0.0;
@@ -59,13 +58,13 @@ pub(crate) fn observe<const N: usize>(
     Ok(observations)
 }
 
-fn of_scene<const N: usize>(
+fn of_scene<T>(
     picker: &Picker,
     subject: &Subject,
     (suite, seed): (&'static str, u64),
     scene: usize,
-    of_apple: &(dyn Fn(&Apple<'_>) -> Vec<Observation<N>> + Sync),
-) -> Result<Vec<Observation<N>>, Failure> {
+    of_apple: &(dyn Fn(&Apple<'_>) -> Vec<T> + Sync),
+) -> Result<Vec<T>, Failure> {
     let made = subject.load()?;
     let frame = CheckedFrame::new(&made.frame)?;
     let answers = picker.pick(&frame, 0, None)?;

@@ -87,10 +87,14 @@ fn normal_share(z: f64) -> f64 {
 }
 
 /// For each distinct candidate the probability that it is the nearest that is there: that it is wood, and none of the
-/// nearer ones is. The likeliest first, with its index in `places`.
+/// nearer ones is. The likeliest first, with its index in `places`. Unless `nearest_first`, distance does not count.
 ///
 /// Of several that are the same branch the first in `places` counts.
-pub(crate) fn nearest_first(places: &[Place], apple_radius: f64) -> Vec<(usize, f64)> {
+pub(crate) fn by_distance(
+    places: &[Place],
+    apple_radius: f64,
+    nearest_first: bool,
+) -> Vec<(usize, f64)> {
     let mut distinct = distinct(places, apple_radius);
     distinct.sort_by(|a, b| {
         let distance = |k: &usize| places[*k].offset.norm();
@@ -102,7 +106,9 @@ pub(crate) fn nearest_first(places: &[Place], apple_radius: f64) -> Vec<(usize, 
         .map(|k| {
             let wood = places[k].wood;
             let nearest = none_nearer * wood;
-            none_nearer *= 1.0 - wood;
+            if nearest_first {
+                none_nearer *= 1.0 - wood;
+            }
             (k, nearest)
         })
         .collect();
@@ -196,21 +202,27 @@ mod tests {
 
     #[test]
     fn a_sure_nearer_one_wins_over_a_surer_farther_one() {
-        let ranked = nearest_first(&[place(0.06, 0.0, 0.99), place(0.0, 0.045, 0.8)], 0.04);
+        let ranked = by_distance(
+            &[place(0.06, 0.0, 0.99), place(0.0, 0.045, 0.8)],
+            0.04,
+            true,
+        );
         assert_eq!(ranked[0].0, 1);
+        let sure = [place(0.06, 0.0, 0.99), place(0.0, 0.045, 0.8)];
+        assert_eq!(by_distance(&sure, 0.04, false)[0], (0, 0.99));
         assert!((ranked[0].1 - 0.8).abs() < 1e-12 && (ranked[1].1 - 0.2 * 0.99).abs() < 1e-12);
     }
 
     #[test]
     fn an_unlikely_nearer_one_does_not() {
-        let ranked = nearest_first(&[place(0.06, 0.0, 0.9), place(0.0, 0.045, 0.2)], 0.04);
+        let ranked = by_distance(&[place(0.06, 0.0, 0.9), place(0.0, 0.045, 0.2)], 0.04, true);
         assert_eq!(ranked[0].0, 0);
     }
 
     #[test]
     fn one_branch_found_twice_counts_once() {
         let twice = [place(0.05, 0.0, 0.9), place(0.051, 0.002, 0.85)];
-        let ranked = nearest_first(&twice, 0.04);
+        let ranked = by_distance(&twice, 0.04, true);
         assert_eq!(ranked.len(), 1);
         assert!((ranked[0].1 - 0.9).abs() < 1e-12);
     }

@@ -21,7 +21,7 @@ use super::axis::BranchAxis;
 use super::axis_fit::AxisSupport;
 use super::branch::Candidate;
 use super::confidence::without_candidate;
-use super::nearest::{Place, nearest_first};
+use super::nearest::{Place, Ranked, by_distance};
 use crate::optics::window_of_sphere;
 use crate::outcome::Status;
 use crossings::Crossings;
@@ -43,10 +43,10 @@ const MOST_SHIFT_RADII: f64 = 0.6;
 /// Probability from which a pixel is wood when its readings are counted.
 const SURE_WOOD: f64 = 0.5;
 
-/// Shares of the pixels of wood with a reading up to which depth is not trusted, and from which it is. Rendered scenes
-/// have 0.92 and more about nearly every apple, the labelled time-of-flight frames 0.5 in the median.
-const UNTRUSTED_SHARE: f64 = 0.82;
-const TRUSTED_SHARE: f64 = 0.93;
+/// Shares of the pixels of wood about an apple with a reading up to which depth may miss branches, and from which it
+/// sees them. Rendered scenes without gaps have 0.92 and more about nearly every apple, those of a sensor with gaps 0.76.
+const MISSES_SHARE: f64 = 0.3;
+const SEES_SHARE: f64 = 0.6;
 
 /// A branch seen in colour.
 #[derive(Clone, Copy, Debug)]
@@ -77,7 +77,7 @@ impl WoodSearch<'_> {
     /// alone has found, judged by the same image.
     pub(crate) fn candidates(
         &self,
-        by_depth: &[Candidate],
+        by_depth: &[Ranked],
         rng: &mut ChaCha8Rng,
     ) -> Vec<WoodCandidate> {
         let Some(band) = self.band() else {
@@ -92,14 +92,15 @@ impl WoodSearch<'_> {
             let stretches = band.evidence(line).into_iter();
             stretches.filter_map(move |evidence| {
                 let lifted = Lifted::new(self, band, line, &evidence, trust)?;
-                let (candidate, wood) = self.candidate(&lifted, &evidence, trust)?;
-                Some((candidate, wood, evidence))
+                let candidate = self.candidate(&lifted, &evidence)?;
+                Some((candidate, evidence.probability(trust, None), evidence))
             })
         });
-        let of_depth = by_depth.iter().filter_map(|candidate| {
-            let evidence = band.evidence_at_foot(&self.image_line(&band, candidate)?);
-            let wood = evidence.probability(trust, Some(candidate.score));
-            Some((*candidate, wood, evidence))
+        let of_depth = by_depth.iter().filter_map(|found| {
+            let candidate = found.candidate;
+            let evidence = band.evidence_at_foot(&self.image_line(&band, &candidate)?);
+            let wood = evidence.probability(trust, Some(found.wood));
+            Some((candidate, wood, evidence))
         });
         let mut found: Vec<(Candidate, f64, Evidence)> = of_lines.chain(of_depth).collect();
         found.sort_by(|a, b| b.1.total_cmp(&a.1));
@@ -110,7 +111,7 @@ impl WoodSearch<'_> {
                 wood: *wood,
             })
             .collect();
-        let ranked = nearest_first(&places, self.apple.radius);
+        let ranked = by_distance(&places, self.apple.radius, self.config.nearest_first);
         ranked
             .into_iter()
             .map(|(k, nearest)| WoodCandidate {
@@ -144,8 +145,8 @@ impl WoodSearch<'_> {
             }
         }
         let share = if all > 0.0 { read / all } else { 0.0 };
-        let by_share = (share - UNTRUSTED_SHARE) / (TRUSTED_SHARE - UNTRUSTED_SHARE);
-        by_share.clamp(0.0, 1.0) * (1.0 - self.smear)
+        let sees = (share - MISSES_SHARE) / (SEES_SHARE - MISSES_SHARE);
+        sees.clamp(0.0, 1.0) * (1.0 - self.smear)
     }
 
     /// The part of the image about the apple.
@@ -204,12 +205,7 @@ impl WoodSearch<'_> {
     }
 
     /// The line of the image in space; `None` where it cannot be a branch of this apple.
-    fn candidate(
-        &self,
-        lifted: &Lifted,
-        evidence: &Evidence,
-        trust: f64,
-    ) -> Option<(Candidate, f64)> {
+    fn candidate(&self, lifted: &Lifted, evidence: &Evidence) -> Option<Candidate> {
         let center = self.apple.center;
         let axis = BranchAxis::straight(&lifted.axis, &center, lifted.radius)?;
         let foot = lifted.foot;
@@ -217,7 +213,7 @@ impl WoodSearch<'_> {
         if !(distance < REACH_RADII * self.apple.radius && distance > 0.0) {
             return None;
         }
-        let candidate = Candidate {
+        Some(Candidate {
             axis,
             foot,
             tangent: lifted.axis.direction,
@@ -230,7 +226,6 @@ impl WoodSearch<'_> {
             score: 0.0,
             foot_sd: lifted.depth_sd,
             rms: lifted.rms,
-        };
-        Some((candidate, evidence.probability(trust, None)))
+        })
     }
 }

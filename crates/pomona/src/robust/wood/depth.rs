@@ -38,7 +38,7 @@ const READINGS_RADII: f64 = 1.0;
 /// of the apple.
 const FAR_RADII: f64 = 4.0;
 
-/// Share that is taken of the depth of wood behind the apple's centre where depth is not to be trusted: readings on thin
+/// Share that is taken of the depth of wood behind the apple's centre in smeared depth: readings on thin
 /// wood are mixed with those of what is behind it.
 pub(crate) const DEPTH_SHARE: f64 = 0.3;
 

@@ -69,37 +69,33 @@ const ODDS: f64 = -2.13;
 /// … and for each unit of contrast.
 const ODDS_CONTRAST: f64 = 6.31;
 
-/// Where depth is to be trusted, by hand on the tuning scenes: for each unit by which the score of an axis that depth has
-/// found exceeds a least one, …
-const ODDS_DEPTH_SCORE: f64 = 6.0;
-const LEAST_DEPTH_SCORE: f64 = 0.5;
-
-/// … there for each unit of contrast of what depth has found as well, …
-const ODDS_BOTH: f64 = 10.0;
-
-/// … and there for what depth has not found.
+/// Where depth is trusted, for what it has not found.
 const ODDS_NOT_IN_DEPTH: f64 = -12.0;
 
-/// Where depth is not to be trusted, for what it has found and colour does not show.
+/// Where depth is not trusted, for what it has found and colour does not show.
 const ODDS_NOT_SHOWN: f64 = -4.0;
+
+/// Largest log odds that depth adds in either direction.
+const MOST_ODDS_OF_DEPTH: f64 = 8.0;
 
 /// Distance from the apple's centre below which wood lies in front of the apple, radii of the apple.
 pub(crate) const IN_FRONT_RADII: f64 = 0.85;
 
 impl Evidence {
-    /// Probability that it is wood, where depth is worth `trust`; `depth_score` is the score of its axis by depth, where
-    /// depth has found it.
-    pub(crate) fn probability(&self, trust: f64, depth_score: Option<f64>) -> f64 {
-        let by_depth = depth_score.map_or(ODDS_NOT_IN_DEPTH, |score| {
-            ODDS_DEPTH_SCORE * (score - LEAST_DEPTH_SCORE) + ODDS_BOTH * self.contrast
+    /// Probability that it is wood, by colour and by depth that is worth `trust`. `by_depth` is the probability by depth
+    /// alone of an axis that depth has found.
+    pub(crate) fn probability(&self, trust: f64, by_depth: Option<f64>) -> f64 {
+        let by_color = ODDS + ODDS_CONTRAST * self.contrast;
+        let odds_of_depth = by_depth.map_or(ODDS_NOT_IN_DEPTH, |wood| {
+            let odds = (wood / (1.0 - wood).max(1e-12)).max(1e-12).ln();
+            odds.clamp(-MOST_ODDS_OF_DEPTH, MOST_ODDS_OF_DEPTH)
         });
         let not_shown = if self.length > 0.0 {
             0.0
         } else {
             ODDS_NOT_SHOWN
         };
-        let by_color = ODDS + ODDS_CONTRAST * self.contrast;
-        let odds = by_color + trust * by_depth + (1.0 - trust) * not_shown;
+        let odds = by_color + trust * odds_of_depth + (1.0 - trust) * not_shown;
         1.0 / (1.0 + (-odds).exp())
     }
 }
@@ -307,7 +303,7 @@ mod tests {
             distance: 1.2,
             length: 0.0,
         };
-        assert!(blank.probability(0.0, Some(1.0)) < 0.01);
-        assert!(blank.probability(1.0, Some(1.0)) > 0.5);
+        assert!(blank.probability(0.0, Some(0.99)) < 0.01);
+        assert!(blank.probability(1.0, Some(0.99)) > 0.5);
     }
 }

@@ -1,7 +1,8 @@
 //! Where the camera of each frame is: fixed beside the robot, or on its gripper.
 
 use anyhow::{anyhow, bail};
-use pomona::{RobotFromCamera, Warning, WarningCode, WithWarnings};
+use pomona::{RobotFromCamera, Warning, WarningCode};
+use pomona_cloud::WithWarnings;
 use pomona_transforms::{
     AnyTransform, CameraFrame, FlangeFrame, NamedTransform, RobotFrame, UncertainTransform,
 };
@@ -38,14 +39,17 @@ pub(crate) struct FramePose {
     warnings: Vec<Warning>,
 }
 
+/// A transform and its file.
+type Found = (PathBuf, AnyTransform);
+
 #[derive(Clone, Debug)]
 enum Source {
     /// The camera is fixed, or its pose at the shot is known.
-    Camera(PathBuf, AnyTransform),
+    Camera(Box<Found>),
     /// It is on the flange, whose pose at the shot is known.
     OnFlange {
-        flange: (PathBuf, AnyTransform),
-        camera: (PathBuf, AnyTransform),
+        flange: Box<Found>,
+        camera: Box<Found>,
     },
 }
 
@@ -63,7 +67,7 @@ impl CameraPoses {
         let flange = present(folder, &FLANGE_POSE);
         if let Some(path) = present(folder, &OWN_POSE) {
             let own = leading_to_base(&path, AnyTransform::read(&path)?, folder)?;
-            let mut pose = FramePose::new(Source::Camera(path.clone(), own));
+            let mut pose = FramePose::new(Source::Camera(Box::new((path.clone(), own))));
             if self.of_all.is_some() || flange.is_some() {
                 let message = format!(
                     "{} is taken as the camera's pose, and no other",
@@ -79,13 +83,15 @@ impl CameraPoses {
         };
         let Some(flange_path) = flange else {
             let camera = leading_to_base(&path, camera, folder)?;
-            return Ok(Some(FramePose::new(Source::Camera(path, camera))));
+            return Ok(Some(FramePose::new(Source::Camera(Box::new((
+                path, camera,
+            ))))));
         };
         let flange = leading_to_base(&flange_path, AnyTransform::read(&flange_path)?, folder)?;
         check_joint(&flange_path, &flange, &path, &camera)?;
         Ok(Some(FramePose::new(Source::OnFlange {
-            flange: (flange_path, flange),
-            camera: (path, camera),
+            flange: Box::new((flange_path, flange)),
+            camera: Box::new((path, camera)),
         })))
     }
 
@@ -156,25 +162,26 @@ impl FramePose {
 
     /// The robot's frame that it leads to.
     pub(crate) fn to(&self) -> &str {
-        let (Source::Camera(_, base)
-        | Source::OnFlange {
-            flange: (_, base), ..
-        }) = &self.source;
-        base.to.as_deref().unwrap_or(BASE)
+        let (Source::Camera(base) | Source::OnFlange { flange: base, .. }) = &self.source;
+        base.1.to.as_deref().unwrap_or(BASE)
     }
 
     /// The pose of the camera whose frame has this id.
     pub(crate) fn of_camera(&self, camera: &str) -> anyhow::Result<WithWarnings<RobotFromCamera>> {
         let mut warnings = self.warnings.clone();
         let pose = match &self.source {
-            Source::Camera(path, transform) => transform
-                .named::<RobotFrame, CameraFrame>(BASE, camera)?
-                .in_file(path)
-                .append_to(&mut warnings),
+            Source::Camera(found) => {
+                let (path, transform) = &**found;
+                transform
+                    .named::<RobotFrame, CameraFrame>(BASE, camera)?
+                    .in_file(path)
+                    .append_to(&mut warnings)
+            }
             Source::OnFlange {
-                flange: (flange_path, flange),
-                camera: (camera_path, on_flange),
+                flange,
+                camera: on_flange,
             } => {
+                let ((flange_path, flange), (camera_path, on_flange)) = (&**flange, &**on_flange);
                 let joint = flange.from.as_ref().or(on_flange.to.as_ref());
                 let joint = joint.map_or(FLANGE, String::as_str);
                 let flange = flange

@@ -5,7 +5,7 @@ use crate::summary::plural;
 use crate::terminal::{self, FAINT, GOOD, HEADING, REFUSED, Terminal, one_line};
 use anyhow::bail;
 use pomona::{FrameAnswer, RobotFromCamera};
-use pomona_cloud::{CloudFormat, Frame};
+use pomona_cloud::CloudFormat;
 use pomona_fusion::{
     DirectionUse, FusedApple, FusedCloud, FusedRecord, FusedStatus, FusedTree, FusionConfig,
     PosedAnswer,

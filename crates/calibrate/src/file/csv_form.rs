@@ -91,7 +91,7 @@ pub(super) fn parse(bytes: &[u8], options: &SampleOptions) -> Result<SampleSet, 
 /// What parts the columns: in the first line, the most frequent of comma, semicolon and tab.
 fn delimiter(bytes: &[u8]) -> u8 {
     let first = bytes.split(|b| *b == b'\n').next().unwrap_or_default();
-    let count = |d: u8| first.iter().filter(|b| **b == d).count();
+    let count = |d: u8| first.split(|b| *b == d).count();
     [b',', b';', b'\t']
         .into_iter()
         .rev()
@@ -265,10 +265,8 @@ impl<'a> Units<'a> {
         let numbers: Vec<f64> = at.iter().map(|&k| row.numbers[k]).collect();
         let translation = self.place(row);
         let found = match (form, &numbers[..]) {
-            (RotationForm::QuaternionXyzw, &[x, y, z, w]) => {
-                Transform::from_quaternion(translation, [x, y, z, w])
-            }
-            (RotationForm::QuaternionWxyz, &[w, x, y, z]) => {
+            (RotationForm::QuaternionXyzw, &[x, y, z, w])
+            | (RotationForm::QuaternionWxyz, &[w, x, y, z]) => {
                 Transform::from_quaternion(translation, [x, y, z, w])
             }
             _ => {

@@ -77,7 +77,7 @@ impl Camera {
             (2.0 * self.cx + 1.0) / self.width as f64,
             (2.0 * self.cy + 1.0) / self.height as f64,
         ];
-        let ratio = (ratios[0] + ratios[1]) / 2.0;
+        let ratio = f64::midpoint(ratios[0], ratios[1]);
         if ratio > 0.0 && (ratios[0] - ratios[1]).abs() <= SAME_RATIO * ratio {
             let size = [self.width, self.height].map(|side| (side as f64 * ratio).round());
             let message = format!(

@@ -86,7 +86,7 @@ impl Numbers {
 /// The camera in a matrix of three rows; `None` for one of zeros, which says that there is no calibration.
 fn pinhole(name: &str, numbers: &[f64]) -> Result<Option<Pinhole>, Malformed> {
     let columns = numbers.len() / 3;
-    if numbers.len() % 3 != 0 || !(3..=4).contains(&columns) {
+    if !numbers.len().is_multiple_of(3) || !(3..=4).contains(&columns) {
         let problem = format!("{} numbers where a 3x3 matrix has 9", numbers.len());
         return Err(Malformed::new(name, problem, REMEDY));
     }

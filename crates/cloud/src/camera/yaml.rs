@@ -283,7 +283,7 @@ header:
 
         let fault = of_images(&text, [1280, 960]).unwrap_err();
         assert!(fault.place.contains("binning"), "{fault:?}");
-        assert!(fault.problem.contains("640 x 480") && fault.remedy.contains("0"));
+        assert!(fault.problem.contains("640 x 480") && fault.remedy.contains('0'));
     }
 
     #[test]

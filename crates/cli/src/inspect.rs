@@ -89,12 +89,14 @@ fn facts_of(path: &Path, read: FrameArguments) -> anyhow::Result<Facts> {
     match extension.as_str() {
         "json" => document::json(path, read),
         "yaml" | "yml" => document::by_words(path, read),
+        // Clouds have this extension too.
+        "txt" if robot::is_transform(path) => robot::transform(path),
         "toml" => document::settings(path),
         _ if cloud::is_cloud(&start) || CloudFormat::from_path(path).is_some() => {
             cloud::facts(path)
         }
         "csv" => robot::samples(path),
-        "txt" | "urdf" | "xacro" | "launch" => robot::transform(path),
+        "urdf" | "xacro" | "launch" => robot::transform(path),
         _ => bail!(
             "{}: not a file that this program knows; it knows frames' folders, PCD, PLY, XYZ, PNG, JPEG, and \
              JSON, YAML, TOML and XML files of its own",

@@ -52,6 +52,11 @@ impl Foreign {
     }
 }
 
+/// Whether a file is a transform in some known form.
+pub(super) fn is_transform(path: &Path) -> bool {
+    AnyTransform::read(path).is_ok()
+}
+
 /// A transform in any known form.
 pub(super) fn transform(path: &Path) -> anyhow::Result<Facts> {
     let read = AnyTransform::read(path)?;

@@ -121,7 +121,7 @@ fn a_camera_on_the_gripper_is_where_the_flange_was() {
     let (found, codes) = robot(&bench);
     assert!(close(found, expected), "{found:?} {expected:?}");
     assert_eq!(codes, [""; 0]);
-    assert!(bench.path("out/ros-pose-0.yaml").exists());
+    assert!(bench.path("out/ros-scene.yaml").exists());
 
     // The same pose as text, which names no frames.
     std::fs::remove_file(bench.path("a/base_from_flange.json")).unwrap();

@@ -1,17 +1,29 @@
-use crate::{Chain, FixedCount, Lossless, NoRefit, Unconstrained, Uniform, settings::Settings};
+use crate::{
+    Chain, FixedCount, Lossless, NoInitialModels, NoRefit, Unconstrained, Uniform,
+    settings::Settings,
+};
 
 /// A search, put together from its parts.
 ///
 /// By default samples are uniform, nothing is constrained or refitted, models are
-/// abandoned by the lossless bound alone, and the search ends after 1000 hypotheses.
+/// abandoned by the lossless bound alone, no model is known beforehand, and the search ends after 1000 hypotheses.
 #[derive(Clone, Copy, Debug)]
-pub struct Ransac<S, P = Uniform, C = Unconstrained, L = NoRefit, T = FixedCount, B = Lossless> {
+pub struct Ransac<
+    S,
+    P = Uniform,
+    C = Unconstrained,
+    L = NoRefit,
+    T = FixedCount,
+    B = Lossless,
+    G = NoInitialModels,
+> {
     pub(crate) scorer: S,
     pub(crate) sampler: P,
     pub(crate) constraints: C,
     pub(crate) local: L,
     pub(crate) stopping: T,
     pub(crate) preemption: B,
+    pub(crate) initial: G,
     pub(crate) settings: Settings,
 }
 
@@ -33,44 +45,60 @@ impl<S> Ransac<S> {
             local: NoRefit,
             stopping: FixedCount::new(1000),
             preemption: Lossless::default(),
+            initial: NoInitialModels,
             settings: Settings::default(),
         }
     }
 }
 
-impl<S, P, C, L, T, B> Ransac<S, P, C, L, T, B> {
+impl<S, P, C, L, T, B, G> Ransac<S, P, C, L, T, B, G> {
     /// Draws samples with `sampler`.
     #[must_use]
-    pub fn sampler<Q>(self, sampler: Q) -> Ransac<S, Q, C, L, T, B> {
-        with_part!(self, sampler; scorer, constraints, local, stopping, preemption, settings)
+    pub fn sampler<Q>(self, sampler: Q) -> Ransac<S, Q, C, L, T, B, G> {
+        with_part!(self, sampler; scorer, constraints, local, stopping, preemption, initial, settings)
     }
 
     /// Adds a constraint to those there are; they are asked in the order added.
     #[must_use]
-    pub fn constraint<D>(self, constraint: D) -> Ransac<S, P, Chain<C, D>, L, T, B> {
+    pub fn constraint<D>(self, constraint: D) -> Ransac<S, P, Chain<C, D>, L, T, B, G> {
         let constraints = Chain {
             earlier: self.constraints,
             last: constraint,
         };
-        with_part!(self, constraints; scorer, sampler, local, stopping, preemption, settings)
+        with_part!(self, constraints; scorer, sampler, local, stopping, preemption, initial, settings)
     }
 
     /// Improves models with `local`.
     #[must_use]
-    pub fn local_optimization<M>(self, local: M) -> Ransac<S, P, C, M, T, B> {
-        with_part!(self, local; scorer, sampler, constraints, stopping, preemption, settings)
+    pub fn local_optimization<M>(self, local: M) -> Ransac<S, P, C, M, T, B, G> {
+        with_part!(self, local; scorer, sampler, constraints, stopping, preemption, initial, settings)
     }
 
     /// Ends the search by the rule `stopping`.
     #[must_use]
-    pub fn stopping<U>(self, stopping: U) -> Ransac<S, P, C, L, U, B> {
-        with_part!(self, stopping; scorer, sampler, constraints, local, preemption, settings)
+    pub fn stopping<U>(self, stopping: U) -> Ransac<S, P, C, L, U, B, G> {
+        with_part!(self, stopping; scorer, sampler, constraints, local, preemption, initial, settings)
     }
 
     /// Rejects hopeless models early by the rule `preemption`.
     #[must_use]
-    pub fn preemption<A>(self, preemption: A) -> Ransac<S, P, C, L, T, A> {
-        with_part!(self, preemption; scorer, sampler, constraints, local, stopping, settings)
+    pub fn preemption<A>(self, preemption: A) -> Ransac<S, P, C, L, T, A, G> {
+        with_part!(self, preemption; scorer, sampler, constraints, local, stopping, initial, settings)
+    }
+
+    /// Compares models that are known beforehand before it draws the first sample: see
+    /// [`InitialModels`](crate::InitialModels).
+    ///
+    /// ```
+    /// use pomona_ransac::{Msac, Ransac};
+    ///
+    /// // The line found in the frame before, as slope and intercept.
+    /// let previous = [(2.0, 1.0)];
+    /// let search = Ransac::new(Msac::within(0.1)).initial_models(&previous[..]);
+    /// ```
+    #[must_use]
+    pub fn initial_models<H>(self, initial: H) -> Ransac<S, P, C, L, T, B, H> {
+        with_part!(self, initial; scorer, sampler, constraints, local, stopping, preemption, settings)
     }
 
     /// Gives no model with fewer inliers than this, or than a minimal sample has.

@@ -1,6 +1,8 @@
 use crate::estimator::blocks;
 use crate::preemption::MAX_LOOKS;
-use crate::{Candidates, Constraints, Draws, Estimator, Look, Preemption, Sampler, Scorer};
+use crate::{
+    Candidates, Constraints, Draws, Estimator, Look, Lossless, Preemption, Sampler, Scorer,
+};
 use std::ops::Range;
 
 /// What a round's hypotheses are drawn from and scored by.
@@ -38,9 +40,28 @@ pub(crate) enum Kind {
 #[derive(Debug)]
 pub(crate) struct Hypothesis<M> {
     pub(crate) model: M,
-    pub(crate) gain: f64,
+    /// What its score is before any datum is seen.
+    prior: f64,
+    /// What the data seen have gained.
+    gain: f64,
     /// It cannot, or will hardly, exceed the round's bound.
     given_up: bool,
+}
+
+impl<M> Hypothesis<M> {
+    fn unscored(model: M) -> Self {
+        Self {
+            model,
+            prior: 0.0,
+            gain: 0.0,
+            given_up: false,
+        }
+    }
+
+    /// Its score, once all data have been seen.
+    pub(crate) fn score(&self) -> f64 {
+        self.prior + self.gain
+    }
 }
 
 /// What a rule has said at one look for one bound: the gains between which it must still be asked.
@@ -162,6 +183,28 @@ impl<M> Lane<M> {
         self.score(task);
     }
 
+    /// Scores models that no sample gave.
+    pub(crate) fn compare<E, S, P, C, B>(&mut self, task: &Task<'_, E, S, P, C, B>, models: &[M])
+    where
+        M: Clone,
+        E: Estimator<Model = M>,
+        S: Scorer<E>,
+        C: Constraints<E>,
+        B: Preemption,
+    {
+        self.events.clear();
+        self.hypotheses.clear();
+        for model in models {
+            let refused = task.constraints.refusing_model(task.estimator, model);
+            let kind = refused.map_or(Kind::Hypothesis, Kind::ModelRefused);
+            self.events.push(Event { kind, last: true });
+            if refused.is_none() {
+                self.hypotheses.push(Hypothesis::unscored(model.clone()));
+            }
+        }
+        self.score(task);
+    }
+
     fn draw<E, S, P, C, B>(&mut self, task: &Task<'_, E, S, P, C, B>, iteration: u64)
     where
         E: Estimator<Model = M>,
@@ -198,11 +241,7 @@ impl<M> Lane<M> {
             // Taken first and dropped again: which models are refused cannot be foreseen, and a branch would be
             // mispredicted every other time.
             let before = hypotheses.len();
-            hypotheses.push(Hypothesis {
-                model,
-                gain: 0.0,
-                given_up: false,
-            });
+            hypotheses.push(Hypothesis::unscored(model));
             hypotheses.truncate(before + usize::from(refused.is_none()));
         };
         if let Some(only) = candidates.take_only() {
@@ -233,7 +272,24 @@ impl<M> Lane<M> {
         } = self;
         let data = task.estimator.len();
         live.clear();
-        live.extend(0..hypotheses.len());
+        let most_gain = task.scorer.most_gain(task.estimator, 0..data);
+        for (h, hypothesis) in hypotheses.iter_mut().enumerate() {
+            let prior = task.scorer.prior(task.estimator, &hypothesis.model);
+            hypothesis.prior = prior;
+            let unseen = Look {
+                seen: 0,
+                data,
+                gain: 0.0,
+                most_left: most_gain,
+                counts: S::COUNTS,
+            };
+            let hopeless =
+                prior != 0.0 && Lossless::default().gives_up(&unseen, task.bound - prior);
+            hypothesis.given_up = hopeless || !prior.is_finite();
+            if !hypothesis.given_up {
+                live.push(h);
+            }
+        }
         looks.clear();
         if !B::LOSSLESS {
             gains.resize(gains.len().max(hypotheses.capacity() * MAX_LOOKS), 0.0);
@@ -270,8 +326,14 @@ impl<M> Lane<M> {
                         most_left,
                         counts: S::COUNTS,
                     };
-                    hypothesis.given_up =
-                        verdict.of(gain, || task.preemption.gives_up(&look, task.bound));
+                    // What is known of a bound is of use where all models have the same prior: none.
+                    let prior = hypothesis.prior;
+                    let ask = || task.preemption.gives_up(&look, task.bound - prior);
+                    hypothesis.given_up = if prior == 0.0 {
+                        verdict.of(gain, ask)
+                    } else {
+                        ask()
+                    };
                     !hypothesis.given_up
                 });
                 if !B::LOSSLESS {
@@ -296,8 +358,10 @@ impl<M> Lane<M> {
         S: Scorer<E>,
         B: Preemption,
     {
-        let Hypothesis { gain, given_up, .. } = self.hypotheses[hypothesis];
-        if given_up || !(gain > bound) {
+        let Hypothesis {
+            prior, given_up, ..
+        } = self.hypotheses[hypothesis];
+        if given_up || !(self.hypotheses[hypothesis].score() > bound) {
             return false;
         }
         let data = task.estimator.len();
@@ -312,7 +376,7 @@ impl<M> Lane<M> {
                 most_left,
                 counts: S::COUNTS,
             };
-            task.preemption.gives_up(&look, bound)
+            task.preemption.gives_up(&look, bound - prior)
         })
     }
 }

@@ -66,7 +66,9 @@
 //! - A [`Sampler`] picks the sample ([`Uniform`], [`Prosac`], [`Local`], [`Pairs`]); a [`Constraint`] may reject the
 //!   sample, or the model before scoring, and is checked again after every refit.
 //! - A [`Scorer`] turns the residuals of a block into a gain of at most one per datum:
-//!   [`InlierCount`], [`Msac`], [`MarginalScore`], or [`PerDatum`] with individual thresholds and weights.
+//!   [`InlierCount`], [`Msac`], [`MarginalScore`], or [`PerDatum`] with individual thresholds and weights. [`WithPrior`]
+//!   adds what is known of the model itself.
+//! - [`InitialModels`] are hypotheses that the caller has before any sample is drawn.
 //! - A [`Preemption`] abandons a model before all data are scored: [`Lossless`], which never changes the result, or
 //!   [`Statistical`], whose probability of changing it is a parameter.
 //! - A [`LocalOptimization`] refits: [`RefitOnce`], [`LeastSquares`], [`Reweighted`], and
@@ -76,6 +78,34 @@
 //! - The [`Report`] is computed from the final model alone, so that its score,
 //!   inliers and residuals are consistent. If the estimator provides derivatives ([`Estimator::linearize`]), it
 //!   contains the noise and the model's [`Covariance`].
+//!
+//! [`Ransac::candidates`] gives the best few models that differ instead of one, for a finer comparison of your own:
+//!
+//! ```
+//! # use pomona_ransac::{Candidates, Estimator, FixedCount, Msac, Ransac, WithPrior};
+//! # use rand_chacha::{ChaCha8Rng, rand_core::SeedableRng};
+//! # struct Readings(Vec<f64>);
+//! # impl Estimator for Readings {
+//! #     type Model = f64;
+//! #     const SAMPLE_SIZE: usize = 1;
+//! #     fn len(&self) -> usize { self.0.len() }
+//! #     fn fit(&self, sample: &[usize], candidates: &mut Candidates<f64>) { candidates.push(self.0[sample[0]]); }
+//! #     fn refit(&self, _: &[usize], _: &f64) -> Option<f64> { None }
+//! #     fn residuals(&self, value: &f64, block: std::ops::Range<usize>, out: &mut [f64]) {
+//! #         for (r, i) in out.iter_mut().zip(block) { *r = (self.0[i] - value).abs(); }
+//! #     }
+//! # }
+//! // Thermometers that agree on two values; the outdoor one is near the forecast of 9 degrees.
+//! let readings = Readings(vec![20.1, 19.9, 20.0, 9.1, 8.8, 9.3, 40.0]);
+//! let near_forecast = |degrees: &f64| -0.5 * (degrees - 9.0).abs();
+//! let best = Ransac::new(WithPrior::new(Msac::within(0.5), near_forecast))
+//!     .initial_models(vec![9.0])
+//!     .stopping(FixedCount::new(50))
+//!     .candidates(&readings, 2, &mut ChaCha8Rng::seed_from_u64(1))?;
+//! assert_eq!(best[0].model, 9.0);
+//! assert_eq!(best[1].model, 20.0);
+//! # Ok::<(), pomona_ransac::RansacError>(())
+//! ```
 //!
 //! If the data contain several structures, [`Sequential`] finds one after the other among the remaining data, and a
 //! [`Competition`] selects among candidate models that compete for the data.
@@ -110,6 +140,7 @@ mod draws;
 mod engine;
 mod error;
 mod estimator;
+mod initial_models;
 mod lane;
 mod linearization;
 mod local;
@@ -137,6 +168,7 @@ pub use draws::Draws;
 pub use engine::Ransac;
 pub use error::RansacError;
 pub use estimator::{BLOCK, Estimator};
+pub use initial_models::{InitialModels, NoInitialModels};
 pub use linearization::Linearization;
 pub use local::{
     LeastSquares, LocalOptimization, NearBest, NoRefit, Refiner, RefitOnce, Reweighted, Scored,
@@ -149,7 +181,7 @@ pub use sampler::{
 };
 pub use scorer::{
     Flat, InlierCount, Kernel, Marginal, MarginalScore, Msac, PerDatum, PerDatumError, Quadratic,
-    Scorer, Threshold, Tukey,
+    Scorer, Threshold, Tukey, WithPrior,
 };
 pub use shuffle::Shuffle;
 pub use stopping::{Either, FixedCount, Progress, StopReason, Stopping, Until};

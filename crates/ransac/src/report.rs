@@ -26,7 +26,9 @@ pub struct Counts {
     pub accepted: u64,
     /// Samples from which no model came.
     pub degenerate: u64,
-    /// Models scored, in full or until they were abandoned.
+    /// Initial models that passed all constraints and were scored; they are no hypotheses of a sample.
+    pub initial: u64,
+    /// Models of samples scored, in full or until they were abandoned.
     pub hypotheses: u64,
     /// Of these, how many did not exceed the best score of their time, abandoned or not.
     pub pruned: u64,

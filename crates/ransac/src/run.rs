@@ -1,10 +1,10 @@
 use crate::{
-    Constraints, Estimator, LocalOptimization, Preemption, Ransac, RansacError, Report, Sampler,
-    Scored, Scorer, Stopping, Workspace, runners_up::Keep, search::Search,
+    Constraints, Estimator, InitialModels, LocalOptimization, Preemption, Ransac, RansacError,
+    Report, Sampler, Scored, Scorer, Stopping, Workspace, runners_up::Keep, search::Search,
 };
 use rand_core::Rng;
 
-impl<S, P, C, L, T, B> Ransac<S, P, C, L, T, B> {
+impl<S, P, C, L, T, B, G> Ransac<S, P, C, L, T, B, G> {
     /// Searches. One number is taken from `rng`, and the outcome depends on it and the data alone.
     ///
     /// # Errors
@@ -21,6 +21,7 @@ impl<S, P, C, L, T, B> Ransac<S, P, C, L, T, B> {
         L: LocalOptimization<E>,
         T: Stopping,
         B: Preemption,
+        G: InitialModels<E::Model>,
     {
         let mut workspace = Workspace::new();
         Search::new(self, estimator, &mut workspace, rng.next_u64()).report()
@@ -46,6 +47,7 @@ impl<S, P, C, L, T, B> Ransac<S, P, C, L, T, B> {
         L: LocalOptimization<E>,
         T: Stopping,
         B: Preemption,
+        G: InitialModels<E::Model>,
     {
         let report = Search::new(self, estimator, workspace, rng.next_u64()).report()?;
         Ok(workspace.report.insert(report))
@@ -54,9 +56,10 @@ impl<S, P, C, L, T, B> Ransac<S, P, C, L, T, B> {
     /// Searches, and gives not the best model alone but up to `models`, and 1000 at most, that differ: the best hypothesis
     /// and those next to it, however low their scores, each after its last refit.
     ///
-    /// They are the candidates among which a [`Competition`](crate::Competition) chooses. No hypothesis is given up by
-    /// the lossless bound, and a rule that waits to be confident of the best model ends too early for the
-    /// smaller ones: better a [`FixedCount`](crate::FixedCount). One number is taken from `rng`.
+    /// Two hypotheses differ where less than four fifths of the union of their inliers are common to both. They are the
+    /// candidates among which a [`Competition`](crate::Competition) chooses, or a finer comparison of the caller's. A rule
+    /// that waits to be confident of the best model ends too early for the smaller ones: better a
+    /// [`FixedCount`](crate::FixedCount). One number is taken from `rng`.
     ///
     /// # Errors
     ///
@@ -76,11 +79,12 @@ impl<S, P, C, L, T, B> Ransac<S, P, C, L, T, B> {
         L: LocalOptimization<E>,
         T: Stopping,
         B: Preemption,
+        G: InitialModels<E::Model>,
     {
         let mut workspace = Workspace::new();
         let keep = Keep {
             models: models.saturating_sub(1),
-            share: 0.0,
+            share: None,
         };
         Search::keeping(keep, self, estimator, &mut workspace, rng.next_u64()).candidates()
     }

@@ -11,8 +11,8 @@ pub(crate) const MAX_RUNNERS_UP: usize = 1000;
 pub(crate) struct Keep {
     /// How many at most.
     pub(crate) models: usize,
-    /// Share of the best score that each exceeds.
-    pub(crate) share: f64,
+    /// Share of the best score that each exceeds; `None` where any score will do.
+    pub(crate) share: Option<f64>,
 }
 
 /// The best distinct hypotheses of a search but for the best, for a last refit of each.
@@ -23,7 +23,9 @@ pub(crate) struct RunnersUp<M> {
     /// The highest score first; among equal ones the earliest.
     kept: Vec<RunnerUp<M>>,
     limit: usize,
-    /// A bit for each datum and place.
+    /// The lowest score that was kept when there was no room left, the highest such score in the course of the search.
+    floor: f64,
+    /// A bit for each datum and place; the last place is that of the best hypothesis.
     bits: Vec<u64>,
     /// Words of a place.
     words: usize,
@@ -43,6 +45,7 @@ impl<M> Default for RunnersUp<M> {
         Self {
             kept: Vec::new(),
             limit: 0,
+            floor: f64::NEG_INFINITY,
             bits: Vec::new(),
             words: 0,
             free: Vec::new(),
@@ -57,18 +60,45 @@ impl<M> RunnersUp<M> {
         self.kept.clear();
         self.kept.reserve(limit);
         self.limit = limit;
+        self.floor = f64::NEG_INFINITY;
         self.words = data.div_ceil(64);
         self.bits.clear();
         self.free.clear();
         if limit > 0 {
-            self.bits.resize((limit + 1) * self.words, 0);
+            self.bits.resize((limit + 2) * self.words, 0);
             self.free.extend(0..=limit);
         }
     }
 
     /// Whether a hypothesis of this score can be kept at all.
     pub(crate) fn wants(&self, score: f64) -> bool {
-        self.kept.len() < self.limit || self.kept.last().is_some_and(|k| score > k.scored.score)
+        self.limit > 0 && score > self.floor
+    }
+
+    /// No score up to this one will be kept any more: it never falls, so that models can be abandoned by it.
+    pub(crate) fn floor(&self) -> f64 {
+        self.floor
+    }
+
+    /// The inliers of the best hypothesis: no runner-up is much the same.
+    pub(crate) fn best(&mut self, inliers: &[usize]) {
+        if self.limit == 0 {
+            return;
+        }
+        let place = self.limit + 1;
+        self.mark(place, inliers);
+        self.drop_same(place, 0);
+    }
+
+    /// Drops those from number `from` on that are much the same as the hypothesis of a place.
+    fn drop_same(&mut self, place: usize, from: usize) {
+        for k in (from..self.kept.len()).rev() {
+            let other = self.kept[k].place;
+            if self.same(other, place) {
+                self.kept.remove(k);
+                self.free.push(other);
+            }
+        }
     }
 
     /// Keeps a hypothesis unless a better one is much the same, in the place of worse ones that are.
@@ -85,21 +115,20 @@ impl<M> RunnersUp<M> {
         let known = self.kept[..better]
             .iter()
             .any(|k| self.same(k.place, place));
-        if known {
+        if known || self.same(self.limit + 1, place) {
             self.free.push(place);
             return;
         }
-        for k in (better..self.kept.len()).rev() {
-            let other = self.kept[k].place;
-            if self.same(other, place) {
-                self.kept.remove(k);
-                self.free.push(other);
-            }
-        }
+        self.drop_same(place, better);
         if self.kept.len() == self.limit {
             self.free.extend(self.kept.pop().map(|worst| worst.place));
         }
         self.kept.insert(better, RunnerUp { scored, place });
+        if self.kept.len() == self.limit
+            && let Some(worst) = self.kept.last()
+        {
+            self.floor = self.floor.max(worst.scored.score);
+        }
     }
 
     /// Takes out those with a score above `bound`, the best first; the others are forgotten.

@@ -1,10 +1,10 @@
-use crate::lane::{Event, Hypothesis, Kind, Lane, Task};
+use crate::lane::{Event, Kind, Lane, Task};
 use crate::local::Refitted;
 use crate::workspace::Buffers;
 use crate::{
-    Confidence, Constraints, Counts, Estimator, LocalOptimization, Preemption, Progress, Ransac,
-    RansacError, Refiner, Rejections, Report, Sampler, Scored, Scorer, StopReason, Stopping,
-    Workspace,
+    Confidence, Constraints, Counts, Estimator, InitialModels, LocalOptimization, Preemption,
+    Progress, Ransac, RansacError, Refiner, Rejections, Report, Sampler, Scored, Scorer,
+    StopReason, Stopping, Workspace,
     noise::uncertainty,
     report::residual_statistics,
     runners_up::{Keep, RunnersUp},
@@ -15,8 +15,8 @@ use std::ops::Range;
 ///
 /// Iterations are computed in rounds and merged in order: what happens in a round depends on no
 /// other iteration of it, and everything that depends on order happens in the merge.
-pub(crate) struct Search<'a, E: Estimator, S, P, C, L, T, B> {
-    parts: &'a Ransac<S, P, C, L, T, B>,
+pub(crate) struct Search<'a, E: Estimator, S, P, C, L, T, B, G> {
+    parts: &'a Ransac<S, P, C, L, T, B, G>,
     estimator: &'a E,
     lanes: &'a mut Vec<Lane<E::Model>>,
     buffers: &'a mut Buffers,
@@ -29,7 +29,7 @@ pub(crate) struct Search<'a, E: Estimator, S, P, C, L, T, B> {
     latest: Option<Refitted<E::Model>>,
 }
 
-impl<'a, E, S, P, C, L, T, B> Search<'a, E, S, P, C, L, T, B>
+impl<'a, E, S, P, C, L, T, B, G> Search<'a, E, S, P, C, L, T, B, G>
 where
     E: Estimator,
     P: Sampler<E>,
@@ -38,16 +38,17 @@ where
     L: LocalOptimization<E>,
     T: Stopping,
     B: Preemption,
+    G: InitialModels<E::Model>,
 {
     pub(crate) fn new(
-        parts: &'a Ransac<S, P, C, L, T, B>,
+        parts: &'a Ransac<S, P, C, L, T, B, G>,
         estimator: &'a E,
         workspace: &'a mut Workspace<E::Model>,
         seed: u64,
     ) -> Self {
         let keep = Keep {
             models: parts.local.runners_up(),
-            share: parts.local.near(),
+            share: Some(parts.local.near()),
         };
         Self::keeping(keep, parts, estimator, workspace, seed)
     }
@@ -55,7 +56,7 @@ where
     /// A search that keeps other runners-up than the local optimisation wants.
     pub(crate) fn keeping(
         keep: Keep,
-        parts: &'a Ransac<S, P, C, L, T, B>,
+        parts: &'a Ransac<S, P, C, L, T, B, G>,
         estimator: &'a E,
         workspace: &'a mut Workspace<E::Model>,
         seed: u64,
@@ -114,13 +115,17 @@ where
                 available: self.estimator.len(),
             });
         }
-        if self.parts.stopping.reason(&self.progress).is_some() {
+        let mut stopped = self.parts.stopping.reason(&self.progress);
+        self.compare_initial();
+        if stopped.is_some() && self.best.is_none() {
             return Err(RansacError::NothingDrawn);
         }
+        stopped = stopped.or_else(|| self.parts.stopping.reason(&self.progress));
         let stopped = loop {
-            if let Some(reason) = self.round() {
+            if let Some(reason) = stopped {
                 break reason;
             }
+            stopped = self.round();
         };
         let best = self.best.take().ok_or_else(|| self.no_model())?;
         Ok((best, stopped))
@@ -134,15 +139,15 @@ where
 
     /// What a score must exceed to be of use.
     fn bound(&self) -> f64 {
-        self.near(self.best_score())
+        self.near(self.best_score()).max(self.runners_up.floor())
     }
 
     /// What a runner-up of a score exceeds; the score itself where none is kept.
     fn near(&self, score: f64) -> f64 {
-        if self.keep.models == 0 || score == f64::NEG_INFINITY {
-            score
-        } else {
-            score.min(score * self.keep.share)
+        match self.keep.share {
+            _ if self.keep.models == 0 || score == f64::NEG_INFINITY => score,
+            Some(share) => score.min(score * share),
+            None => f64::NEG_INFINITY,
         }
     }
 
@@ -190,6 +195,33 @@ where
         stopped
     }
 
+    /// Compares the models that are known beforehand, as many at a time as a round has iterations.
+    fn compare_initial(&mut self) {
+        for models in self
+            .parts
+            .initial
+            .models()
+            .chunks(self.parts.settings.round)
+        {
+            let task = self.task();
+            let mut lanes = std::mem::take(self.lanes);
+            if let Some(lane) = lanes.first_mut() {
+                lane.compare(&task, models);
+                let mut next = 0;
+                for event in &lane.events {
+                    if let Kind::ModelRefused(rule) = event.kind {
+                        self.counts.rejection(rule).models += 1;
+                    } else {
+                        self.judge(&task, lane, next);
+                        next += 1;
+                    }
+                }
+                self.counts.initial += next as u64;
+            }
+            *self.lanes = lanes;
+        }
+    }
+
     /// Takes in what a lane computed, one iteration after the other.
     fn merge(
         &mut self,
@@ -204,7 +236,8 @@ where
                 Kind::SampleRefused(rule) => self.counts.rejection(rule).samples += 1,
                 Kind::ModelRefused(rule) => self.counts.rejection(rule).models += 1,
                 Kind::Hypothesis => {
-                    self.judge(task, lane, next);
+                    self.progress.hypotheses += 1;
+                    self.counts.pruned += u64::from(!self.judge(task, lane, next));
                     next += 1;
                     accepted = true;
                 }
@@ -220,28 +253,31 @@ where
         None
     }
 
-    /// Makes a hypothesis the best model, or a runner-up, or nothing.
-    fn judge(&mut self, task: &Task<'_, E, S, P, C, B>, lane: &Lane<E::Model>, hypothesis: usize) {
-        self.progress.hypotheses += 1;
-        let useful = lane.exceeds(hypothesis, self.bound(), task);
-        if !useful {
-            self.counts.pruned += 1;
-            return;
+    /// Makes a hypothesis the best model, or a runner-up, or nothing; whether it is the best.
+    fn judge(
+        &mut self,
+        task: &Task<'_, E, S, P, C, B>,
+        lane: &Lane<E::Model>,
+        hypothesis: usize,
+    ) -> bool {
+        if !lane.exceeds(hypothesis, self.bound(), task) {
+            return false;
         }
-        let Hypothesis { model, gain, .. } = &lane.hypotheses[hypothesis];
+        let hypothesis = &lane.hypotheses[hypothesis];
         let scored = Scored {
-            model: model.clone(),
-            score: *gain,
+            model: hypothesis.model.clone(),
+            score: hypothesis.score(),
         };
-        if scored.score > self.best_score() {
+        let best = scored.score > self.best_score();
+        if best {
             self.promote(scored);
         } else {
-            self.counts.pruned += 1;
             self.keep(scored);
         }
+        best
     }
 
-    /// Makes a model the best one, after local optimisation.
+    /// Makes a model the best one, after local optimisation; the one before becomes a runner-up.
     fn promote(&mut self, model: Scored<E::Model>) {
         let local = &self.parts.local;
         let best = local.improve(&mut self.refiner(), model);
@@ -251,7 +287,16 @@ where
             self.parts.scorer.count(self.estimator, &best.model)
         };
         self.progress.best_score = Some(best.score);
-        self.best = Some(best);
+        if self.keep.models > 0 {
+            let inliers = &mut self.buffers.inliers;
+            self.parts
+                .scorer
+                .select(self.estimator, &best.model, inliers);
+            self.runners_up.best(inliers);
+        }
+        if let Some(former) = self.best.replace(best) {
+            self.keep(former);
+        }
     }
 
     /// Keeps a hypothesis that is near the best for the end.
@@ -361,7 +406,9 @@ where
             .iter()
             .max_by_key(|r| r.samples + r.models);
         match most {
-            _ if self.progress.hypotheses > 0 => RansacError::NoConsensus { inliers: 0, needed },
+            _ if self.progress.hypotheses + self.counts.initial > 0 => {
+                RansacError::NoConsensus { inliers: 0, needed }
+            }
             Some(rule) if rule.samples + rule.models > 0 => RansacError::ConstraintNeverMet {
                 draws,
                 constraint: rule.constraint,

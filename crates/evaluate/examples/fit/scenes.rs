@@ -9,11 +9,11 @@ use rayon::prelude::*;
 /// Suites, first seed, and number of scenes: none of those that the suites are evaluated on. More of `rivals`, where
 /// what is nearer and what is surer differ most often.
 const SCENES: [(&str, u64, usize); 5] = [
-    ("rivals", 200, 500),
-    ("orchard", 200, 400),
-    ("harsh", 200, 200),
-    ("harsh-kinect", 200, 200),
-    ("repeat474-dense", 1000, 80),
+    ("rivals", 200, 1500),
+    ("orchard", 200, 1500),
+    ("harsh", 200, 500),
+    ("harsh-kinect", 200, 500),
+    ("repeat474-dense", 1000, 400),
 ];
 
 /// An apple of a scene, and what the method makes of it.

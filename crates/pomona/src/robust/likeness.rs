@@ -12,11 +12,11 @@ const N: usize = WOOD_FEATURES.len();
 /// Coefficients of the logistic model of 'its foot is that of a branch', in the order of [`WOOD_FEATURES`].
 ///
 /// Fitted to the scenes 200 and up of `rivals`, `orchard`, `harsh` and `harsh-kinect`, 1000 and up of
-/// `repeat474-dense`; the scenes that the suites are evaluated on are others. `cargo xtask fit-wood` fits them again.
+/// `repeat474-dense` (4400 in all); the scenes that the suites are evaluated on are others. `cargo xtask fit-wood` fits them again.
 pub const WOOD_MODEL: [f64; N] = [
-    1.931, 0.266, 0.187, -0.344, -0.466, -0.490, 1.042, -0.168, 2.351, 1.621, -0.745, 0.595,
-    -5.362, -0.901, 1.110, -1.884, -0.782, -3.479, 0.335, 0.118, -1.522, -0.855, -1.770, -2.092,
-    -1.431, -0.421, -11.054, 1.350, 0.982, -2.263, 0.937, -0.541, -2.505, -1.809,
+    0.170, 0.487, 0.566, 0.097, 0.489, -0.156, 2.901, 0.092, 3.064, 1.437, -0.851, 0.465, -5.535,
+    -0.647, 2.098, -2.458, -0.554, -4.560, -0.834, 0.086, -1.782, -0.764, -2.426, -2.857, -1.527,
+    -0.225, -26.484, 0.834, 1.409, -1.065, 1.393, -1.741, -2.756, -2.211,
 ];
 
 /// Offset within logarithms of lengths, radii of the apple.

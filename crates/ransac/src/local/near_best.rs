@@ -12,7 +12,8 @@ use crate::{Constraints, Estimator, Scorer};
 /// The search keeps the highest scores, of hypotheses that differ: of two whose inliers
 /// share four fifths of their union, the better is kept. Each is then refitted to convergence under the
 /// constraints by `L`'s [`finish`](LocalOptimization::finish). With a lossless bound the score is never below that of `L` alone.
-/// Models can be abandoned only below the share of the best score that is still near, and so later.
+/// Models can be abandoned only below the share of the best score that is still near, or below all runners-up once
+/// there are as many as wanted, and so later.
 ///
 /// ```
 /// use pomona_ransac::{LeastSquares, Msac, NearBest, Ransac};

@@ -23,10 +23,12 @@ impl<M, F: Fn(&M) -> f64 + Sync> Threshold<M> for F {
     }
 }
 
-/// Says how well a model explains the data: the sum of a gain between 0 and 1 for each datum.
+/// Says how well a model explains the data: the sum of a gain of at most 1 for each datum, and of the model's
+/// [`prior`](Self::prior).
 ///
 /// More is better. That no datum gains more than 1 is what bounds a score from
-/// above while part of the data is still unseen.
+/// above while part of the data is still unseen. A datum that contradicts a model may gain less than 0, but not
+/// under [`Statistical`](crate::Statistical) preemption, whose guarantee is for gains between 0 and 1.
 pub trait Scorer<E: Estimator>: Sync {
     /// Whether each datum gains 0 or 1, so that a score is a number of inliers; `false` by default.
     ///
@@ -35,6 +37,13 @@ pub trait Scorer<E: Estimator>: Sync {
 
     /// Sum of the gains of the data of `block`, at most [`BLOCK`](crate::BLOCK) of them.
     fn block_gain(&self, estimator: &E, model: &E::Model, block: Range<usize>) -> f64;
+
+    /// What the score of `model` is before any datum is seen, in units of a datum's largest gain; 0 by default.
+    ///
+    /// A model whose prior is not finite is never taken. See [`WithPrior`](crate::WithPrior).
+    fn prior(&self, _estimator: &E, _model: &E::Model) -> f64 {
+        0.0
+    }
 
     /// The largest residual of an inlier of `model`.
     fn threshold(&self, model: &E::Model) -> f64;
@@ -53,7 +62,7 @@ pub trait Scorer<E: Estimator>: Sync {
     /// an inlier that counts as one, by default.
     ///
     /// A [`Competition`](crate::Competition) shares out the data by it. Times
-    /// [`weight_of`](Self::weight_of) and summed over the inliers it must be the score.
+    /// [`weight_of`](Self::weight_of) and summed over the inliers it must be the score, less the prior.
     fn gain_at(&self, _fraction: f64) -> f64 {
         1.0
     }
@@ -73,6 +82,10 @@ pub trait Scorer<E: Estimator>: Sync {
     /// Gives up as soon as it is certain that it does not.
     fn score(&self, estimator: &E, model: &E::Model, bound: f64) -> Option<f64> {
         let data = estimator.len();
+        let prior = self.prior(estimator, model);
+        if !prior.is_finite() {
+            return None;
+        }
         let mut gain = 0.0;
         for block in blocks(data) {
             let seen = block.end;
@@ -85,11 +98,12 @@ pub trait Scorer<E: Estimator>: Sync {
                 most_left,
                 counts: Self::COUNTS,
             };
-            if Lossless::default().gives_up(&look, bound) {
+            if Lossless::default().gives_up(&look, bound - prior) {
                 return None;
             }
         }
-        (gain > bound).then_some(gain)
+        let score = prior + gain;
+        (score > bound).then_some(score)
     }
 
     /// How many inliers `model` has.

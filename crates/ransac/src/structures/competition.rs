@@ -113,9 +113,9 @@ impl Competition {
     ///
     /// Memory and time of a move grow with the sum of all candidates' inliers, times the number of
     /// models chosen.
-    pub fn run<E, S, P, C, L, T, B>(
+    pub fn run<E, S, P, C, L, T, B, G>(
         &self,
-        search: &Ransac<S, P, C, L, T, B>,
+        search: &Ransac<S, P, C, L, T, B, G>,
         estimator: &E,
         candidates: impl IntoIterator<Item = E::Model>,
     ) -> Selection<E::Model>

@@ -8,6 +8,7 @@ mod hostile;
 mod lines;
 mod near_best;
 mod numbers;
+mod prior_knowledge;
 mod reproducible;
 mod scores;
 mod structures;

@@ -1,10 +1,10 @@
 //! The same report, bit for bit, however the work is divided.
 
 use pomona_ransac::{
-    Confidence, Constraint, Constraints, Draws, Estimator, Exhaustive, FixedCount, InlierCount,
-    LeastSquares, Local, LocalOptimization, Lossless, Marginal, MarginalScore, Msac, NearBest,
-    Pairs, Partners, PerDatum, Preemption, Prosac, Ransac, Report, Reweighted, Sampler, Scorer,
-    Statistical, Stopping, Tukey, Unconstrained, Uniform,
+    Confidence, Constraint, Constraints, Draws, Estimator, Exhaustive, FixedCount, InitialModels,
+    InlierCount, LeastSquares, Local, LocalOptimization, Lossless, Marginal, MarginalScore, Msac,
+    NearBest, Pairs, Partners, PerDatum, Preemption, Prosac, Ransac, Report, Reweighted, Sampler,
+    Scorer, Statistical, Stopping, Tukey, Unconstrained, Uniform, WithPrior,
 };
 use rand_chacha::{ChaCha8Rng, rand_core::SeedableRng};
 
@@ -33,7 +33,7 @@ static POOLS: std::sync::LazyLock<Vec<rayon::ThreadPool>> = std::sync::LazyLock:
 });
 
 /// The same digits for rounds of any size, on any number of threads.
-fn check<E, S, P, C, L, T, B>(search: &Ransac<S, P, C, L, T, B>, data: &E, seed: u64)
+fn check<E, S, P, C, L, T, B, G>(search: &Ransac<S, P, C, L, T, B, G>, data: &E, seed: u64)
 where
     E: Estimator<Model: std::fmt::Debug>,
     S: Scorer<E> + Clone,
@@ -42,8 +42,9 @@ where
     L: LocalOptimization<E> + Sync + Clone,
     T: Stopping + Clone,
     B: Preemption + Clone,
+    G: InitialModels<E::Model> + Clone,
 {
-    let run = |search: Ransac<S, P, C, L, T, B>| {
+    let run = |search: Ransac<S, P, C, L, T, B, G>| {
         let report = search.run(data, &mut ChaCha8Rng::seed_from_u64(seed));
         digits(&report.expect("a model"))
     };
@@ -125,7 +126,16 @@ where
         check(&plain.clone().local_optimization(weighed), &data, seed);
         let near = plain.local_optimization(NearBest::new(LeastSquares::default()));
         check(&near, &data, seed);
-        check(&near.preemption(bold), &data, seed);
+        check(&near.clone().preemption(bold), &data, seed);
+        let known: Vec<Line> = (0..40)
+            .map(|k| Line {
+                slope: 0.03 * f64::from(k),
+                intercept: 0.1,
+            })
+            .collect();
+        let known = near.initial_models(known);
+        check(&known, &data, seed);
+        check(&known.preemption(bold), &data, seed);
     }
 }
 
@@ -181,6 +191,13 @@ fn every_scorer_is_reproducible() {
     check_rest(&MarginalScore::within(0.1), &Uniform);
     check_rest(&each.clone(), &Uniform);
     check_rest(&each.weights(weights).expect("weights"), &Uniform);
+}
+
+#[test]
+fn a_prior_is_reproducible() {
+    let flat = |line: &Line| -20.0 * line.slope.abs();
+    check_rest(&WithPrior::new(Msac::within(0.06), flat), &Uniform);
+    check_rest(&WithPrior::new(InlierCount::within(0.06), flat), &Uniform);
 }
 
 #[test]

@@ -12,6 +12,8 @@ use std::fmt::Write;
 
 /// A flange's pose and a board's, as the samples of a file have them.
 type Pair = [Isometry3<f64>; 2];
+/// Where the camera is, and the warnings.
+type Answer = (Isometry3<f64>, Vec<(WarningCode, String)>);
 
 /// Stops of an arm with a board on its flange, and where the camera is. The board's poses are off by a millimetre and a
 /// tenth of a degree.
@@ -44,9 +46,7 @@ fn samples(pairs: &[Pair]) -> Vec<PoseSample> {
     pairs.iter().enumerate().map(sample).collect()
 }
 
-fn calibrate(
-    samples: &[PoseSample],
-) -> Result<(Isometry3<f64>, Vec<(WarningCode, String)>), CalibrateError> {
+fn calibrate(samples: &[PoseSample]) -> Result<Answer, CalibrateError> {
     let rng = &mut ChaCha8Rng::seed_from_u64(0);
     let found = calibrate_eye_to_hand(samples, &Options::default(), rng)?;
     let warnings = found.quality.warnings.into_iter();

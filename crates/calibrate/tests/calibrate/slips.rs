@@ -133,10 +133,11 @@ fn samples_that_agree_in_no_way_get_no_invented_cause() {
         .map(|[flange, _]| [*flange, Isometry3::new(vector(1.0), vector(2.0))])
         .collect();
     let error = calibrate(&samples(&wrong)).unwrap_err();
-    assert!(
-        matches!(error, CalibrateError::NoConsensus { .. }),
-        "{error}"
+    let is_plain = matches!(
+        error,
+        CalibrateError::NoConsensus { .. } | CalibrateError::Undetermined
     );
+    assert!(is_plain, "{error}");
 }
 
 #[test]

@@ -64,6 +64,7 @@ mod rotation_form;
 mod sample_options;
 mod sample_set;
 mod samples;
+mod units;
 
 pub use error::CalibrateError;
 pub use options::Options;
@@ -79,6 +80,7 @@ pub use record::{
     calibrate,
 };
 pub use rotation_form::{EulerAngles, RotationForm};
-pub use sample_options::{AngleUnit, LengthUnit, SampleOptions};
+pub use sample_options::SampleOptions;
 pub use sample_set::{FrameIds, SAMPLES_SCHEMA, SampleSet, Samples};
 pub use samples::{PointSample, PoseSample};
+pub use units::{AngleUnit, LengthUnit};

@@ -1,4 +1,4 @@
-use crate::sample_options::AngleUnit;
+use crate::units::AngleUnit;
 use nalgebra::{Quaternion, Unit, UnitQuaternion, Vector3};
 use std::str::FromStr;
 

@@ -1,7 +1,8 @@
 //! What the columns of a table of samples hold, by their names: of this project, or as other programs call them.
 
 use crate::rotation_form::{EulerAngles, RotationForm};
-use crate::sample_options::{AngleUnit, LengthUnit, SampleOptions};
+use crate::sample_options::SampleOptions;
+use crate::units::{AngleUnit, LengthUnit};
 use pomona_files::Malformed;
 
 /// Names of what the robot tells, before the name of a number; a number without any is the robot's too.

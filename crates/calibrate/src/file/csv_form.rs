@@ -1,7 +1,8 @@
 use super::checks::{check_ids, not_rigid};
 use super::columns::{Columns, RotationColumns, SideColumns};
 use crate::rotation_form::RotationForm;
-use crate::sample_options::{AngleUnit, LengthUnit, SampleOptions};
+use crate::sample_options::SampleOptions;
+use crate::units::{AngleUnit, LengthUnit};
 use crate::{FrameIds, PointSample, PoseSample, SampleSet, Samples};
 use csv::{ReaderBuilder, StringRecord, Trim};
 use pomona_files::{Malformed, Warning, WarningCode};

@@ -102,6 +102,24 @@ pub enum CalibrateError {
         "the samples agree when the poses of one side are inverted, and not as they are: `robot_from_flange` holds `flange_from_robot`, or `camera_from_target` holds `target_from_camera`, or the kind is eye-in-hand in place of eye-to-hand, or the reverse; turn the poses round, or name the other kind"
     )]
     Inverted,
+    /// The samples agree only with w as the first component of quaternions.
+    #[error(
+        "the samples agree when w comes first in the quaternions of {sides}, and not as they are; write them x y z w, or name their order (`--rotations quaternion-wxyz`)"
+    )]
+    WFirst {
+        /// Which poses.
+        sides: &'static str,
+    },
+    /// The samples agree only with the rows of one side moved.
+    #[error(
+        "the samples agree when the poses of the target are moved {direction} by {rows} against those of the flange, and not as they are; pair each pose of the flange with the image that was taken there"
+    )]
+    Shifted {
+        /// By how many rows.
+        rows: usize,
+        /// `up` or `down`.
+        direction: &'static str,
+    },
     /// Too few samples agree on any answer.
     #[error(
         "no consensus: {agreeing} of {samples} samples agree within {tolerance}, more than half is needed; check that the ids belong together and that camera and target are fixed, or allow a larger tolerance"

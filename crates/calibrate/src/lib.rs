@@ -29,7 +29,8 @@
 //! - [`PoseSample`]: the pose of the flange and that of a target. The camera is fixed and the target is on the
 //!   flange: [`calibrate_eye_to_hand`], [`calibrate_robot_world`]. The camera is on the flange and the target is
 //!   fixed: [`calibrate_eye_in_hand`].
-//! - A [`SampleSet`] is a file of samples, JSON or CSV, keyed by id.
+//! - A [`SampleSet`] is a file of samples: JSON or CSV, keyed by id, or a file of `MoveIt` or `easy_handeye`.
+//!   [`SampleOptions`] name units and rotations that the file leaves open.
 //! - The answer is an [`UncertainTransform`](pomona_transforms::UncertainTransform) with a 6×6 covariance, and a
 //!   [`Quality`]: residual and weight of every sample, rejected ones with the reason, and the leave-one-out error at
 //!   the fruit's distance.
@@ -59,13 +60,16 @@ mod poses;
 mod quality;
 mod record;
 mod robust;
+mod rotation_form;
+mod sample_options;
 mod sample_set;
 mod samples;
+mod units;
 
 pub use error::CalibrateError;
 pub use options::Options;
 pub use points::{PointCalibration, calibrate_points};
-pub use pomona_files::FileError;
+pub use pomona_files::{FileError, Warning, WarningCode};
 pub use poses::{
     MotionSpread, PoseCalibration, PoseSolver, calibrate_eye_in_hand, calibrate_eye_to_hand,
     calibrate_robot_world, solve_without_robustness,
@@ -75,5 +79,8 @@ pub use record::{
     Calibration, CalibrationKind, CalibrationRecord, CameraMount, RECORD_SCHEMA, TransformRecord,
     calibrate,
 };
+pub use rotation_form::{EulerAngles, RotationForm};
+pub use sample_options::SampleOptions;
 pub use sample_set::{FrameIds, SAMPLES_SCHEMA, SampleSet, Samples};
 pub use samples::{PointSample, PoseSample};
+pub use units::{AngleUnit, LengthUnit};

@@ -10,6 +10,7 @@ use crate::quality::{LeaveOneOut, Quality, SampleQuality, fruit, rejection, spre
 use crate::samples::{check_point_lengths, check_points};
 use crate::{CalibrateError, Options, PointSample};
 use estimator::PointPairs;
+use pomona_files::{Warning, WarningCode};
 use pomona_transforms::{CameraFrame, Position, RobotFrame, Transform, UncertainTransform};
 use rand_core::Rng;
 use refine::{Fit, left_out, refine};
@@ -154,22 +155,25 @@ fn quality(
     let used = fit.kept().count();
     let mut warnings = Vec::new();
     if used < SAFE_POINTS {
-        warnings.push(format!(
+        let message = format!(
             "only {used} points are used: too few to be sure that none of them is wrong; take {SAFE_POINTS} or more"
-        ));
+        );
+        warnings.push(Warning::new(WarningCode::FewSamples, message));
     }
     if samples.len() - used > samples.len() / 4 {
-        warnings.push(format!(
+        let message = format!(
             "{} of {} points are rejected: look for a common cause before trusting the rest",
             samples.len() - used,
             samples.len()
-        ));
+        );
+        warnings.push(Warning::new(WarningCode::ManyRejected, message));
     }
     if (scale.value - 1.0).abs() > 4.0 * scale.sigma.max(1e-9) && (scale.value - 1.0).abs() > 1e-3 {
-        warnings.push(format!(
+        let message = format!(
             "distances in the robot's frame are {:.2} % of the camera's: check the camera's depth scale and intrinsics",
             scale.value * 100.0
-        ));
+        );
+        warnings.push(Warning::new(WarningCode::CameraScale, message));
     }
     let at_fruit = camera.position(&Position::new(fruit(options.fruit_distance_m)).into());
     Quality {

@@ -1,5 +1,7 @@
 //! Calibration from pose pairs.
 
+mod board_scale;
+mod cause;
 mod daniilidis;
 mod estimator;
 mod motions;
@@ -16,6 +18,7 @@ use crate::robust::MAX_DRAWS;
 use crate::{CalibrateError, Options, PoseSample};
 use estimator::PosePairs;
 use nalgebra::{Isometry3, Matrix6};
+use pomona_files::{Warning, WarningCode};
 use pomona_ransac::{FixedCount, LeastSquares, Msac, Ransac};
 use pomona_transforms::{
     CameraFrame, FlangeFrame, FrameTag, Position, RobotFrame, TargetFrame, Transform,
@@ -137,13 +140,14 @@ fn calibrate<Carrier: FrameTag, Other: FrameTag, R: Rng + ?Sized>(
 ) -> Result<PoseCalibration<Carrier, Other>, CalibrateError> {
     options.check()?;
     crate::samples::check_poses(samples, LEAST_POSES)?;
-    let pairs: Vec<PosePair> = samples
-        .iter()
-        .map(|s| PosePair {
+    let paired = |samples: &[PoseSample]| -> Vec<PosePair> {
+        let pair = |s: &PoseSample| PosePair {
             carrier: carrier_from_other(s),
             seen: s.camera_from_target.isometry(),
-        })
-        .collect();
+        };
+        samples.iter().map(pair).collect()
+    };
+    let pairs = paired(samples);
     motions::check(&pairs)?;
     let tolerance = Scale {
         rotation_rad: options.rotation_tolerance_rad,
@@ -155,7 +159,12 @@ fn calibrate<Carrier: FrameTag, Other: FrameTag, R: Rng + ?Sized>(
         Err(_) if agrees_inverted(&pairs, solvers, tolerance, options, rng) => {
             return Err(CalibrateError::Inverted);
         }
-        Err(error) => return Err(error),
+        Err(error) => {
+            let agree = |corrected: &[PoseSample]| {
+                search(&paired(corrected), solvers, tolerance, options, rng).is_ok()
+            };
+            return Err(cause::cause(samples, agree).unwrap_or(error));
+        }
     };
     let kept: Vec<PosePair> = inliers.iter().map(|&i| pairs[i]).collect();
     motions::check(&kept)?;
@@ -278,17 +287,20 @@ fn quality<Carrier: FrameTag>(
     let used = fit.kept().count();
     let mut warnings = Vec::new();
     if used < SAFE_POSES {
-        warnings.push(format!(
+        let message = format!(
             "only {used} poses are used: too few to be sure that none of them is wrong; take {SAFE_POSES} or more"
-        ));
+        );
+        warnings.push(Warning::new(WarningCode::FewSamples, message));
     }
     if samples.len() - used > samples.len() / 4 {
-        warnings.push(format!(
+        let message = format!(
             "{} of {} poses are rejected: look for a common cause before trusting the rest",
             samples.len() - used,
             samples.len()
-        ));
+        );
+        warnings.push(Warning::new(WarningCode::ManyRejected, message));
     }
+    warnings.extend(board_scale::doubt(pairs, fit));
     let at_fruit =
         camera.position(&Position::new(crate::quality::fruit(options.fruit_distance_m)).into());
     let leave_one_out = LeaveOneOut::of(&rows);

@@ -1,4 +1,5 @@
 use nalgebra::{Isometry3, Matrix3, Vector3};
+use pomona_files::Warning;
 use serde::Serialize;
 
 /// How good a calibration is, judged by its own samples.
@@ -20,8 +21,8 @@ pub struct Quality {
     pub sigma_rotation_rad: f64,
     /// Leave-one-out errors.
     pub leave_one_out: LeaveOneOut,
-    /// Warnings for people, in sentences.
-    pub warnings: Vec<String>,
+    /// What is doubtful about the samples.
+    pub warnings: Vec<Warning>,
 }
 
 /// One sample against the calibration.

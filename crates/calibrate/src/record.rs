@@ -187,6 +187,18 @@ pub fn calibrate(
     options: &Options,
     seed: u64,
 ) -> Result<Calibration, CalibrateError> {
+    let mut calibration = of_kind(set, kind, options, seed)?;
+    let quality = &mut calibration.record.quality;
+    quality.warnings.splice(..0, set.warnings.iter().cloned());
+    Ok(calibration)
+}
+
+fn of_kind(
+    set: &SampleSet,
+    kind: CalibrationKind,
+    options: &Options,
+    seed: u64,
+) -> Result<Calibration, CalibrateError> {
     let rng = &mut ChaCha8Rng::seed_from_u64(seed);
     let names = Names::of(&set.frames);
     match (kind, &set.samples) {

@@ -1,4 +1,5 @@
 use crate::{PointSample, PoseSample};
+use pomona_files::Warning;
 
 /// Name and version of the form of a JSON file of samples.
 pub const SAMPLES_SCHEMA: &str = "pomona.calibration-samples/1";
@@ -30,6 +31,11 @@ pub const SAMPLES_SCHEMA: &str = "pomona.calibration-samples/1";
 /// `…_x_m`, `…_y_m`, `…_z_m`, `…_qx`, `…_qy`, `…_qz`, `…_qw`.
 ///
 /// Metres; quaternions in the order x y z w; transforms destination first.
+///
+/// CSV with the columns of other programs is read too: parted by `;` or tabs, with decimal commas; lengths in
+/// millimetres (`…_mm`, or told by their size); a rotation as `a b c` (KUKA), `roll pitch yaw`, `w p r` (FANUC), or as
+/// [`SampleOptions`](crate::SampleOptions) name it. So are the samples of `MoveIt`'s hand-eye calibration and of
+/// `easy_handeye`, in YAML.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct SampleSet {
@@ -37,6 +43,8 @@ pub struct SampleSet {
     pub samples: Samples,
     /// Ids of the frames.
     pub frames: FrameIds,
+    /// What was assumed about the file.
+    pub warnings: Vec<Warning>,
 }
 
 /// Samples of one kind.

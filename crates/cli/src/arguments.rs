@@ -96,7 +96,7 @@ impl Arguments {
             Command::Scenes(arguments) => scenes::run(arguments),
             Command::Evaluate(arguments) => evaluate::run(arguments, terminal),
             Command::Calibrate(arguments) => calibrate::run(arguments, terminal),
-            Command::Convert(arguments) => convert::run(arguments),
+            Command::Convert(arguments) => convert::run(arguments, terminal),
             Command::Inspect(arguments) => inspect::run(arguments, terminal),
             Command::Config(arguments) => config::run(arguments),
             Command::Completions(arguments) => completions::run(arguments, Self::command()),

@@ -5,10 +5,12 @@ use crate::terminal::{self, FAINT, GOOD, HEADING, REFUSED, Terminal, one_line};
 use anyhow::{anyhow, bail};
 use clap::{Args, ValueEnum};
 use pomona_calibrate::{
-    Calibration, CalibrationKind, CalibrationRecord, Options, RECORD_SCHEMA, SampleSet, calibrate,
+    AngleUnit, Calibration, CalibrationKind, CalibrationRecord, LengthUnit, Options, RECORD_SCHEMA,
+    RotationForm, SampleOptions, SampleSet, calibrate,
 };
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
+use std::str::FromStr;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -17,7 +19,7 @@ Examples:
   pomona calibrate poses.json --kind eye-in-hand --out flange_from_camera.json
   pomona pick frames/a --transform robot_from_camera.json --out out
 
-SAMPLES is JSON or CSV, keyed by id: points measured by the camera and touched by the robot, or poses of the flange \
+SAMPLES is JSON or CSV, keyed by id, or YAML of MoveIt or easy_handeye: points measured by the camera and touched by the robot, or poses of the flange \
 and of a target seen by the camera; docs/calibration.md describes the formats and how to take samples. A report on \
 every sample is written beside OUT, with the extension .report.json. Samples that do not determine the answer are \
 refused.";
@@ -48,7 +50,7 @@ impl KindName {
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct CalibrateArguments {
-    /// File of samples, JSON or CSV.
+    /// File of samples: JSON, CSV, or YAML of `MoveIt` or `easy_handeye`.
     #[arg(value_name = "SAMPLES")]
     samples: PathBuf,
     /// What to calibrate. Default: points for points, eye-to-hand for poses.
@@ -78,14 +80,64 @@ pub(crate) struct CalibrateArguments {
     /// Id of the flange's frame, in place of the file's. Default: flange.
     #[arg(long, value_name = "ID")]
     flange_frame: Option<String>,
+    #[command(flatten)]
+    form: FormArguments,
     /// Print the record to standard output as JSON instead of the table.
     #[arg(long)]
     json: bool,
 }
 
+/// How a table of samples is written, where its columns do not say it.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Form of the samples (CSV)")]
+struct FormArguments {
+    /// How rotations are written: quaternion-xyzw, quaternion-wxyz, rotation-vector, kuka, rpy, or the axes of three angles:
+    /// ZYX about moving axes, xyz about fixed ones.
+    #[arg(long, value_name = "FORM", value_parser = RotationForm::from_str)]
+    rotations: Option<RotationForm>,
+    /// The unit of lengths.
+    #[arg(long, value_enum)]
+    lengths: Option<Lengths>,
+    /// The unit of angles.
+    #[arg(long, value_enum)]
+    angles: Option<Angles>,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Lengths {
+    /// Metres.
+    M,
+    /// Millimetres.
+    Mm,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Angles {
+    /// Radians.
+    Rad,
+    /// Degrees.
+    Deg,
+}
+
+impl FormArguments {
+    fn options(&self) -> SampleOptions {
+        let mut options = SampleOptions::default();
+        options.rotations = self.rotations;
+        options.lengths = self.lengths.map(|unit| match unit {
+            Lengths::M => LengthUnit::Metres,
+            Lengths::Mm => LengthUnit::Millimetres,
+        });
+        options.angles = self.angles.map(|unit| match unit {
+            Angles::Rad => AngleUnit::Radians,
+            Angles::Deg => AngleUnit::Degrees,
+        });
+        options
+    }
+}
+
 pub(crate) fn run(arguments: &CalibrateArguments, terminal: Terminal) -> anyhow::Result<()> {
     let files = Files::claim(&arguments.out)?;
-    let mut set = SampleSet::read(&arguments.samples)?;
+    let mut set = SampleSet::read_with(&arguments.samples, &arguments.form.options())?;
     for (given, id) in [
         (&arguments.robot_frame, &mut set.frames.robot),
         (&arguments.camera_frame, &mut set.frames.camera),
@@ -106,6 +158,9 @@ pub(crate) fn run(arguments: &CalibrateArguments, terminal: Terminal) -> anyhow:
         .map_err(|e| anyhow!("{}: {e}", arguments.samples.display()))?;
     let json = serde_json::to_string_pretty(&outcome.record)? + "\n";
     files.write(&outcome, &json)?;
+    for warning in &outcome.record.quality.warnings {
+        terminal.warn("calibration", warning);
+    }
     if arguments.json {
         return terminal::print(&json);
     }
@@ -223,9 +278,6 @@ fn table(record: &CalibrationRecord, terminal: Terminal) -> String {
     }
     text.push('\n');
     text += &summary(record, terminal);
-    for warning in &quality.warnings {
-        text += &(terminal.paint(REFUSED, &format!("warning: {warning}")) + "\n");
-    }
     text
 }
 

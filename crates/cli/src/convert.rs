@@ -1,8 +1,9 @@
+use crate::frame_arguments::FrameArguments;
 use crate::summary::plural;
-use crate::terminal;
+use crate::terminal::{self, Terminal};
 use anyhow::{anyhow, bail};
 use clap::{Args, ValueEnum};
-use pomona_cloud::{BoxChoice, BoxSource, CloudFormat, Frame, PointCloud};
+use pomona_cloud::{CloudFormat, PointCloud};
 use std::path::{Path, PathBuf};
 
 const EXAMPLES: &str = "\
@@ -61,9 +62,11 @@ pub(crate) struct ConvertArguments {
     /// Drop points that are NaN or infinite; an organised cloud becomes unorganised.
     #[arg(long)]
     drop_nan: bool,
+    #[command(flatten)]
+    frame: FrameArguments,
 }
 
-pub(crate) fn run(arguments: &ConvertArguments) -> anyhow::Result<()> {
+pub(crate) fn run(arguments: &ConvertArguments, terminal: Terminal) -> anyhow::Result<()> {
     let (input, output) = (&arguments.input, &arguments.output);
     let by_name = || CloudFormat::from_path(output);
     let Some(format) = arguments.format.map(Format::format).or_else(by_name) else {
@@ -76,11 +79,7 @@ pub(crate) fn run(arguments: &ConvertArguments) -> anyhow::Result<()> {
         bail!("{}: is a folder; name a file", output.display());
     }
     let mut cloud = if input.is_dir() {
-        PointCloud::from_frame(&Frame::read_with(
-            input,
-            &BoxSource::Nowhere,
-            &BoxChoice::default(),
-        )?)?
+        from_frame(arguments, terminal)?
     } else {
         PointCloud::read(input)?
     };
@@ -90,6 +89,14 @@ pub(crate) fn run(arguments: &ConvertArguments) -> anyhow::Result<()> {
     check(&cloud, input)?;
     cloud.write(output, format)?;
     terminal::print(&format!("{}: {}\n", output.display(), description(&cloud)))
+}
+
+fn from_frame(arguments: &ConvertArguments, terminal: Terminal) -> anyhow::Result<PointCloud> {
+    let frame = arguments.frame.without_boxes(&arguments.input)?;
+    for warning in frame.warnings.iter().chain(&frame.camera.doubts()) {
+        terminal.warn(&frame.id, warning);
+    }
+    Ok(PointCloud::from_frame(&frame)?)
 }
 
 fn is_finite(cloud: &PointCloud, i: usize) -> bool {

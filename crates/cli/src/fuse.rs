@@ -1,9 +1,11 @@
+use crate::camera_pose::CameraPoses;
+use crate::frame_arguments::FrameArguments;
 use crate::output_folder::{OutputFolder, RecordFile};
 use crate::summary::plural;
 use crate::terminal::{self, FAINT, GOOD, HEADING, REFUSED, Terminal, one_line};
-use anyhow::{anyhow, bail};
+use anyhow::bail;
 use pomona::{FrameAnswer, RobotFromCamera};
-use pomona_cloud::{BoxChoice, BoxSource, CloudFormat, Frame};
+use pomona_cloud::CloudFormat;
 use pomona_fusion::{
     DirectionUse, FusedApple, FusedCloud, FusedRecord, FusedStatus, FusedTree, FusionConfig,
     PosedAnswer,
@@ -14,8 +16,6 @@ use std::path::{Path, PathBuf};
 const FUSED: &str = "fused.json";
 /// The fused cloud.
 const CLOUD: &str = "fused.ply";
-/// The pose of a frame's camera, in the frame's folder.
-const POSE: &str = "robot_from_camera.json";
 
 /// One frame, answered.
 pub(crate) struct FusedInput<'a> {
@@ -28,6 +28,8 @@ pub(crate) struct FusedInput<'a> {
 pub(crate) struct Task<'a> {
     pub(crate) frames: &'a [FusedInput<'a>],
     pub(crate) output: &'a OutputFolder,
+    /// How the frames are read.
+    pub(crate) read: FrameArguments,
     pub(crate) cloud: bool,
     pub(crate) json: bool,
 }
@@ -64,40 +66,30 @@ pub(crate) fn remove_earlier(out: &Path) -> anyhow::Result<()> {
     OutputFolder::remove_earlier(out, RECORD, |name| name == CLOUD)
 }
 
-/// The poses of the frames' cameras, all in one frame of the robot.
-pub(crate) fn poses(
-    folders: &[&Path],
-    of_all: Option<&RobotFromCamera>,
-) -> anyhow::Result<Vec<RobotFromCamera>> {
-    let poses: Vec<RobotFromCamera> = folders
-        .iter()
-        .map(|folder| pose(folder, of_all))
-        .collect::<Result<_, _>>()?;
-    if let Some(k) = poses.iter().position(|p| p.to != poses[0].to) {
-        bail!(
-            "the pose of {} leads to '{}', that of {} to '{}': give all poses in one frame of the robot",
-            folders[0].display(),
-            poses[0].to,
-            folders[k].display(),
-            poses[k].to
-        );
+/// Refuses frames without a pose of their camera, and poses that do not lead to one frame of the robot.
+pub(crate) fn check_poses(poses: &CameraPoses, folders: &[&Path]) -> anyhow::Result<()> {
+    let mut first: Option<(&Path, String)> = None;
+    for folder in folders {
+        let Some(pose) = poses.of(folder)? else {
+            bail!(
+                "{}: no pose of its camera: --fuse needs robot_from_camera.json in the folder of each frame, or --transform \
+                 FILE for a camera at rest, or --transform FILE and base_from_flange.json in each folder for one on the \
+                 gripper",
+                folder.display()
+            );
+        };
+        match &first {
+            Some((other, to)) if to != pose.to() => bail!(
+                "the pose of {} leads to '{to}', that of {} to '{}': give all poses in one frame of the robot",
+                other.display(),
+                folder.display(),
+                pose.to()
+            ),
+            Some(_) => {}
+            None => first = Some((folder, pose.to().to_owned())),
+        }
     }
-    Ok(poses)
-}
-
-/// The pose of a frame's camera: that in its folder, else the one for all.
-fn pose(folder: &Path, of_all: Option<&RobotFromCamera>) -> anyhow::Result<RobotFromCamera> {
-    let own = folder.join(POSE);
-    if own.exists() {
-        return Ok(RobotFromCamera::read(own)?);
-    }
-    of_all.cloned().ok_or_else(|| {
-        anyhow!(
-            "{}: no pose of its camera: --fuse needs {POSE} in the folder of each frame, or --transform FILE for a \
-             camera at rest",
-            folder.display()
-        )
-    })
+    Ok(())
 }
 
 impl Task<'_> {
@@ -123,8 +115,7 @@ impl Task<'_> {
         if self.cloud {
             let mut fused = FusedCloud::new(config.voxel_m);
             for (input, fused_frame) in self.frames.iter().zip(&tree.frames) {
-                let frame =
-                    Frame::read_with(input.folder, &BoxSource::Nowhere, &BoxChoice::default())?;
+                let frame = self.read.without_boxes(input.folder)?;
                 fused.add(&frame, input.pose, &fused_frame.correction)?;
             }
             fused

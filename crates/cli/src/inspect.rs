@@ -4,7 +4,9 @@ mod document;
 mod facts;
 mod folder;
 mod image;
+mod robot;
 
+use crate::frame_arguments::FrameArguments;
 use crate::terminal::{self, Terminal};
 use anyhow::{anyhow, bail};
 use clap::Args;
@@ -20,8 +22,8 @@ Examples:
   pomona inspect cloud.pcd cloud.ply         points, bounds and colours of clouds
   pomona inspect out/picks.json --json       as JSON, in metres
 
-Frames, clouds (PCD, PLY, XYZ), images, cameras, box files, transforms, settings, picks.json and truth.json \
-are recognised.";
+Frames, clouds (PCD, PLY, XYZ), images, cameras, box files, transforms, samples and reports of calibrations, settings, \
+picks.json and truth.json are recognised, in pomona's form and in those of other programs. What is doubtful comes last.";
 
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
@@ -32,13 +34,15 @@ pub(crate) struct InspectArguments {
     /// Print JSON: one object for one path, an array for several; lengths in metres.
     #[arg(long)]
     json: bool,
+    #[command(flatten)]
+    frame: FrameArguments,
 }
 
 pub(crate) fn run(arguments: &InspectArguments, terminal: Terminal) -> anyhow::Result<()> {
     let count = arguments.paths.len();
     let mut known: Vec<Facts> = Vec::new();
     for path in &arguments.paths {
-        match facts_of(path) {
+        match facts_of(path, arguments.frame) {
             Ok(facts) => {
                 if !arguments.json {
                     let separator = if known.is_empty() { "" } else { "\n" };
@@ -66,9 +70,9 @@ pub(crate) fn run(arguments: &InspectArguments, terminal: Terminal) -> anyhow::R
     Ok(())
 }
 
-fn facts_of(path: &Path) -> anyhow::Result<Facts> {
+fn facts_of(path: &Path, read: FrameArguments) -> anyhow::Result<Facts> {
     if path.is_dir() {
-        return folder::facts(path);
+        return folder::facts(path, read);
     }
     let start = first_bytes(path)?;
     let extension = path
@@ -83,12 +87,16 @@ fn facts_of(path: &Path) -> anyhow::Result<Facts> {
         return document::boxes(path);
     }
     match extension.as_str() {
-        "json" => document::json(path),
-        "yaml" | "yml" => camera::facts(path),
+        "json" => document::json(path, read),
+        "yaml" | "yml" => document::by_words(path, read),
+        // Clouds have this extension too.
+        "txt" if robot::is_transform(path) => robot::transform(path),
         "toml" => document::settings(path),
         _ if cloud::is_cloud(&start) || CloudFormat::from_path(path).is_some() => {
             cloud::facts(path)
         }
+        "csv" => robot::samples(path),
+        "urdf" | "xacro" | "launch" => robot::transform(path),
         _ => bail!(
             "{}: not a file that this program knows; it knows frames' folders, PCD, PLY, XYZ, PNG, JPEG, TIFF, NPY, and \
              JSON, YAML, TOML and XML files of its own",

@@ -5,12 +5,14 @@
 mod apple_cloud;
 mod arguments;
 mod calibrate;
+mod camera_pose;
 mod completions;
 mod config;
 mod convert;
 mod detect;
 mod detector;
 mod evaluate;
+mod frame_arguments;
 mod fuse;
 mod image_paths;
 mod inspect;

@@ -20,7 +20,6 @@ use jobs::{Job, jobs};
 use pomona::record::PicksRecord;
 use pomona::{FrameAnswer, RobotFromCamera, Status};
 use session::Session;
-use std::path::Path;
 
 /// Reads the arguments, answers the frames, fuses them where that is asked for, and prints what came of it.
 pub(crate) fn run(arguments: &PickArguments, terminal: Terminal) -> anyhow::Result<()> {
@@ -33,9 +32,14 @@ pub(crate) fn run(arguments: &PickArguments, terminal: Terminal) -> anyhow::Resu
         .transpose()?;
     let jobs = jobs(&arguments.frames, &arguments.out, arguments.of_one_frame())?;
     check_detector_options(arguments, &jobs, terminal)?;
-    let poses = poses(arguments, &session, &jobs)?;
+    if arguments.fuse {
+        fuse::check_poses(
+            session.poses(),
+            &jobs.iter().map(|job| &*job.frame).collect::<Vec<_>>(),
+        )?;
+    }
 
-    let answers = answer_all(arguments, &session, &jobs, &poses, terminal)?;
+    let (answers, poses) = answer_all(arguments, &session, &jobs, terminal)?;
     let failed = jobs.len() - answers.len();
     if let (Some(output), 0) = (&fused_output, failed) {
         fuse_all(
@@ -93,36 +97,20 @@ fn check_detector_options(
     Ok(())
 }
 
-/// The pose of each frame's camera, where one is given.
-fn poses(
-    arguments: &PickArguments,
-    session: &Session<'_>,
-    jobs: &[Job],
-) -> anyhow::Result<Vec<Option<RobotFromCamera>>> {
-    let of_all = session.transform();
-    if !arguments.fuse {
-        return Ok(vec![of_all.cloned(); jobs.len()]);
-    }
-    let folders: Vec<&Path> = jobs.iter().map(|job| job.frame.as_path()).collect();
-    let poses = fuse::poses(&folders, of_all)?;
-    Ok(poses.into_iter().map(Some).collect())
-}
-
-/// Answers the frames one after the other, writes their files and prints their tables. A frame that fails is reported
-/// and left out, unless it is the only one.
+/// Answers the frames one after the other, writes their files and prints their tables; the answers, and the poses of
+/// their cameras. A frame that fails is reported and left out, unless it is the only one.
 fn answer_all(
     arguments: &PickArguments,
     session: &Session<'_>,
     jobs: &[Job],
-    poses: &[Option<RobotFromCamera>],
     terminal: Terminal,
-) -> anyhow::Result<Vec<FrameAnswer>> {
+) -> anyhow::Result<(Vec<FrameAnswer>, Vec<Option<RobotFromCamera>>)> {
     let bar = progress::bar(jobs.len());
-    let mut answers = Vec::new();
-    for (job, pose) in jobs.iter().zip(poses) {
+    let (mut answers, mut poses) = (Vec::new(), Vec::new());
+    for job in jobs {
         bar.set_message(job.frame.display().to_string());
-        match session.run(job, pose.as_ref(), terminal) {
-            Ok(answer) => {
+        match session.run(job, terminal) {
+            Ok((answer, pose)) => {
                 for warning in &answer.warnings {
                     bar.suspend(|| terminal.warn(&answer.id, warning));
                 }
@@ -135,6 +123,7 @@ fn answer_all(
                     bar.suspend(|| terminal::print(&text))?;
                 }
                 answers.push(answer.without_evidence());
+                poses.push(pose);
             }
             Err(error) if jobs.len() == 1 => return Err(error),
             Err(error) => bar.suspend(|| terminal.error(&error)),
@@ -142,7 +131,7 @@ fn answer_all(
         bar.inc(1);
     }
     bar.finish_and_clear();
-    Ok(answers)
+    Ok((answers, poses))
 }
 
 /// What to do about boxes that hold no apple, where there are any.
@@ -182,6 +171,7 @@ fn fuse_all(
     let task = fuse::Task {
         frames: &frames,
         output,
+        read: arguments.frame,
         cloud: arguments.fused_cloud,
         json: arguments.json,
     };

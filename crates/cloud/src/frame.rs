@@ -1,9 +1,10 @@
 mod points;
 
 use crate::boxes::validate_all;
+use crate::folder::{COLOR_FILES, folder_name};
 use crate::{
-    BoxChoice, BoxFormat, BoxImage, Camera, CloudError, ColorImage, DepthImage, DepthValues,
-    PixelBox, read_boxes, write_boxes,
+    BoxChoice, BoxFormat, BoxImage, Camera, CameraOptions, CloudError, ColorImage, DepthImage,
+    DepthValues, PixelBox, read_boxes, write_boxes,
 };
 use pomona_files::{FileError, Malformed, Warning, WarningCode, temporary_beside};
 use std::fs;
@@ -40,12 +41,39 @@ pub enum BoxSource {
     Nowhere,
 }
 
+/// What is known about a frame beside the files of its folder.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[non_exhaustive]
+pub struct FrameOptions {
+    /// About its camera; the size of the images is theirs.
+    pub camera: CameraOptions,
+    /// Where its boxes are read from.
+    pub boxes: BoxSource,
+    /// Which boxes of that file are meant.
+    pub choice: BoxChoice,
+}
+
+impl FrameOptions {
+    /// For a camera as `options` have it, with the boxes that `choice` takes from `boxes`.
+    pub fn new(camera: CameraOptions, boxes: BoxSource, choice: BoxChoice) -> Self {
+        Self {
+            camera,
+            boxes,
+            choice,
+        }
+    }
+}
+
 const CAMERA: &[&str] = &[
     "camera.json",
     "camera.yaml",
     "camera.yml",
     "camera_info.yaml",
+    "camera_info.yml",
+    "camera_info.json",
+    "ost.yaml",
     "intrinsic.json",
+    "intrinsics.json",
 ];
 
 /// The names under which [`Frame::write`] writes.
@@ -71,14 +99,7 @@ impl Frame {
 
     /// The names of the colour image in a frame's folder; the first that is there is read, here and below, and capitals
     /// do not matter.
-    pub const COLOR_FILES: [&str; 6] = [
-        "color.png",
-        "color.jpg",
-        "color.jpeg",
-        "rgb.png",
-        "rgb.jpg",
-        "rgb.jpeg",
-    ];
+    pub const COLOR_FILES: [&str; 6] = COLOR_FILES;
 
     /// The names of the depth image.
     pub const DEPTH_FILES: [&str; 4] = ["depth.png", "depth.tiff", "depth.tif", "depth.npy"];
@@ -102,30 +123,27 @@ impl Frame {
     }
 
     /// Reads a frame's folder: `color.png` or `.jpg` (or `rgb`), `depth.png`, `.tiff` or `.npy`, `camera.json` (or a ROS
-    /// `camera.yaml`, `camera_info.yaml`, or Open3D's `intrinsic.json`), and
+    /// `camera.yaml`, `camera_info.yaml`, `ost.yaml`, or Open3D's `intrinsic.json`), and
     /// `boxes.xml`, `.json` or `.txt` where there is one. Of several names the first is read. Depth in floating point,
     /// which is in metres unless the camera states another unit, is rounded to 16 bits.
     ///
     /// Of a box file with several classes the apples are taken, as [`BoxChoice`] has it by default.
+    /// What had to be assumed is in [`Frame::warnings`].
     ///
     /// # Errors
     ///
     /// [`CloudError::MissingFile`], [`CloudError::SizeMismatch`], [`CloudError::Box`], and
     /// the errors of reading each file.
     pub fn read(dir: impl AsRef<Path>) -> Result<Self, CloudError> {
-        Self::read_with(dir, &BoxSource::Own, &BoxChoice::default())
+        Self::read_with(dir, &FrameOptions::default())
     }
 
-    /// Reads a frame's folder with the boxes that `choice` takes from `boxes`.
+    /// As [`Frame::read`], with what is known beside the folder's files.
     ///
     /// # Errors
     ///
-    /// As [`Frame::read`].
-    pub fn read_with(
-        dir: impl AsRef<Path>,
-        boxes: &BoxSource,
-        choice: &BoxChoice,
-    ) -> Result<Self, CloudError> {
+    /// As [`Frame::read`]; [`CloudError::File`] where the options contradict the camera's file.
+    pub fn read_with(dir: impl AsRef<Path>, options: &FrameOptions) -> Result<Self, CloudError> {
         let dir = dir.as_ref();
         if let Err(source) = fs::read_dir(dir) {
             return Err(FileError::read(dir, source).into());
@@ -134,11 +152,12 @@ impl Frame {
         let color = ColorImage::read(&color_file)?;
         let depth_file = required(dir, &Self::DEPTH_FILES, "depth.png")?;
         let depth = DepthValues::read(&depth_file)?;
-        let mut camera = Camera::read_with_warnings(required(
-            dir,
-            CAMERA,
-            "camera.json (or camera.yaml, intrinsic.json)",
-        )?)?;
+        let path = required(dir, CAMERA, "camera.json (or camera.yaml, intrinsic.json)")?;
+        let camera_options = CameraOptions {
+            image_size: Some([color.width, color.height]),
+            ..options.camera
+        };
+        let mut camera = Camera::read_with(&path, &camera_options)?;
         let is_assumed = |w: &Warning| w.code == WarningCode::DepthScaleAssumed;
         let assumed = camera.warnings.iter().any(is_assumed);
         let scale = (!assumed).then_some(camera.value.depth_scale);
@@ -157,18 +176,19 @@ impl Frame {
         }
         let mut frame = Self::new(folder_name(dir), camera.value, color, depth);
         frame.warnings = camera.warnings;
+        frame.warnings.extend(other_cameras(dir, &path));
         frame.validate_as(dir)?;
         frame
             .warnings
             .extend(ColorImage::turned_by_exif(&color_file)?);
-        let path = match boxes {
+        let box_file = match &options.boxes {
             BoxSource::Own => present(dir, &Self::BOX_FILES),
             BoxSource::File(path) => Some(path.clone()),
             BoxSource::Nowhere => None,
         };
-        if let Some(path) = path {
+        if let Some(path) = box_file {
             let image = BoxImage::new(frame.color.width, frame.color.height).at(color_file);
-            let boxes = read_boxes(path, &image, choice)?;
+            let boxes = read_boxes(path, &image, &options.choice)?;
             frame.boxes = Some(boxes.append_to(&mut frame.warnings));
         }
         Ok(frame)
@@ -315,18 +335,27 @@ fn present(dir: &Path, names: &[&str]) -> Option<PathBuf> {
     })
 }
 
+/// Cameras beside the one that is read.
+fn other_cameras(dir: &Path, read: &Path) -> Option<Warning> {
+    let others = CAMERA.iter().filter(|name| {
+        let path = dir.join(name);
+        path != read && path.exists()
+    });
+    let others: Vec<&str> = others.copied().collect();
+    let name = read.file_name()?.to_string_lossy();
+    let message = format!(
+        "{name}: the camera of this file is taken, and not that of {} beside it; leave one of them",
+        others.join(", ")
+    );
+    let warning = Warning::new(WarningCode::OtherCamerasIgnored, message);
+    (!others.is_empty()).then_some(warning)
+}
+
 fn required(dir: &Path, names: &[&str], expected: &'static str) -> Result<PathBuf, CloudError> {
     present(dir, names).ok_or_else(|| CloudError::MissingFile {
         path: dir.to_owned(),
         expected,
     })
-}
-
-/// The folder's own name, also where the path is `.` or ends in `..`.
-pub(crate) fn folder_name(dir: &Path) -> String {
-    let name = dir.file_name().map(ToOwned::to_owned);
-    let name = name.or_else(|| dir.canonicalize().ok()?.file_name().map(ToOwned::to_owned));
-    name.unwrap_or_default().to_string_lossy().into_owned()
 }
 
 #[cfg(test)]

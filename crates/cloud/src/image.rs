@@ -3,6 +3,7 @@
 mod claim;
 mod color;
 mod depth;
+mod depth_file;
 mod depth_values;
 mod exif;
 mod gray;

@@ -47,7 +47,7 @@
 //!
 //! A [`Frame`] is a colour image, a depth image registered to it, their common [`Camera`], and optionally the
 //! bounding boxes of the apples. Its folder contains `color.png` (or `.jpg`), `depth.png` (16-bit grey),
-//! `camera.json` (or a ROS `CameraInfo` in YAML, or Open3D's `intrinsic.json`), and `boxes.xml`, `.json` or `.txt`
+//! `camera.json` (or a camera in the form of ROS, OpenCV, Kalibr, Open3D or `RealSense`), and `boxes.xml`, `.json` or `.txt`
 //! (VOC, COCO, YOLO and others, see [`read_boxes`]). Of the classes and images in a box file a [`BoxChoice`] and a
 //! [`BoxImage`] take those that are meant. [`read_tum`] reads folders of the TUM RGB-D benchmark. A [`CocoDataset`] has the boxes of many
 //! images in one file; a [`LabelledBox`] is a box with its class.
@@ -85,6 +85,7 @@ mod cloud;
 mod color;
 mod depth;
 mod error;
+mod folder;
 mod formats;
 mod frame;
 mod gray;
@@ -98,13 +99,13 @@ pub use boxes::{
     CocoResult, ImageKey, LabelKind, LabelledBox, PixelBox, read_boxes, read_coco_results,
     read_labels, write_boxes,
 };
-pub use camera::{Camera, CameraError, Distortion, Lens};
+pub use camera::{Camera, CameraError, CameraOptions, Distortion, ImageKind, Lens};
 pub use cloud::PointCloud;
 pub use color::ColorImage;
 pub use depth::DepthImage;
 pub use error::CloudError;
 pub use formats::CloudFormat;
-pub use frame::{BoxSource, Frame};
+pub use frame::{BoxSource, Frame, FrameOptions};
 pub use gray::GrayImage;
 pub use image::DepthValues;
 pub use points::DepthPoints;

@@ -1,6 +1,7 @@
 //! Folders of the TUM RGB-D benchmark: `rgb.txt` and `depth.txt` list images by time.
 
-use crate::frame::{Frame, folder_name};
+use crate::folder::folder_name;
+use crate::frame::Frame;
 use crate::{Camera, CloudError, ColorImage, DepthImage};
 use pomona_files::Malformed;
 use std::path::{Path, PathBuf};

@@ -1,3 +1,4 @@
+use serde::ser::{Serialize, SerializeStruct, Serializer};
 use std::fmt;
 use std::path::Path;
 
@@ -72,6 +73,50 @@ codes! {
     NoBoxesOfImage = "no_boxes_of_image", Warning;
     /// Boxes of a YOLO text reach beyond the image, and would lie in it if the numbers stood in another order.
     BoxOrderDoubtful = "box_order_doubtful", Warning;
+    /// A camera file gives no image size; that of the frame's images is taken.
+    ImageSizeAssumed = "image_size_assumed", Note;
+    /// A camera file does not name the model of its distortion; it is told by the number of coefficients.
+    DistortionModelAssumed = "distortion_model_assumed", Note;
+    /// The camera matrix K is zero, and the projection matrix P is taken: for rectified images.
+    ProjectionMatrixTaken = "projection_matrix_taken", Note;
+    /// Binning or a region of interest of a camera file is applied to the sensor's numbers.
+    SensorRegionApplied = "sensor_region_applied", Note;
+    /// A camera file describes raw and rectified images with different numbers, and nobody said which the images are; they are taken to be raw.
+    RawImagesAssumed = "raw_images_assumed", Warning;
+    /// A lens is called `inverse_brown_conrady`, a name that drivers give to two different models.
+    InverseLens = "inverse_lens", Warning;
+    /// A frame's folder holds several camera files; the first is taken.
+    OtherCamerasIgnored = "other_cameras_ignored", Warning;
+    /// The principal point lies far from the middle of the image.
+    PrincipalPointOffCenter = "principal_point_off_center", Warning;
+    /// The intrinsics are those of an image of another size.
+    IntrinsicsOfAnotherSize = "intrinsics_of_another_size", Warning;
+    /// The focal lengths along x and y differ as if pixels were not square.
+    FocalLengthsDiffer = "focal_lengths_differ", Warning;
+    /// The field of view is one that no RGB-D camera has.
+    FieldOfViewImplausible = "field_of_view_implausible", Warning;
+    /// A unit of the depth image is longer or shorter than any camera stores.
+    DepthScaleImplausible = "depth_scale_implausible", Warning;
+    /// A transform's file names no frames; common names are taken.
+    TransformFramesAssumed = "transform_frames_assumed", Note;
+    /// The camera is farther from its robot than arms reach; the translation may be in millimetres.
+    CameraFarFromRobot = "camera_far_from_robot", Warning;
+    /// A frame's folder has a pose of its own, which is taken in place of the transform given for all frames.
+    OwnPoseTaken = "own_pose_taken", Note;
+    /// A frame's folder has the flange's pose, which is not used without a transform from the camera to the flange.
+    FlangePoseUnused = "flange_pose_unused", Note;
+    /// The unit of lengths or angles in a file of calibration samples is told by the size of the numbers.
+    SampleUnitsAssumed = "sample_units_assumed", Note;
+    /// So few calibration samples are used that a wrong one may go unnoticed.
+    FewSamples = "few_samples", Warning;
+    /// More than a quarter of the calibration samples are rejected.
+    ManyRejected = "many_rejected", Warning;
+    /// Distances between points differ by a factor between camera and robot.
+    CameraScale = "camera_scale", Warning;
+    /// The calibration board is of another size than its detector was told.
+    BoardScale = "board_scale", Warning;
+    /// What the boxes hold is too large or too small for fruit, by one factor in all of them.
+    SizesImplausible = "sizes_implausible", Warning;
 }
 
 impl fmt::Display for WarningCode {
@@ -115,6 +160,17 @@ impl Warning {
     /// How much it matters: its code's level.
     pub fn level(&self) -> Level {
         self.code.level()
+    }
+}
+
+/// As it is in records: `code`, `level` and `message`.
+impl Serialize for Warning {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut record = serializer.serialize_struct("Warning", 3)?;
+        record.serialize_field("code", self.code.name())?;
+        record.serialize_field("level", self.level().name())?;
+        record.serialize_field("message", &self.message)?;
+        record.end()
     }
 }
 

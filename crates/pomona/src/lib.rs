@@ -69,6 +69,7 @@ mod robot;
 mod robust;
 mod roundness;
 mod seed;
+mod size_doubt;
 
 pub use config::{
     Config, DetectionConfig, FallbackConfig, FallbackKind, FruitConfig, FusionConfig, Method,

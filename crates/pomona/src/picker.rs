@@ -7,6 +7,7 @@ use crate::outcome::{AppleAnswer, FrameAnswer, RobotFromCamera, RobotTarget, Sta
 use crate::paper;
 use crate::robust;
 use crate::seed::apple_rng;
+use crate::size_doubt;
 use pomona_cloud::{DepthPoints, PixelBox};
 use rayon::prelude::*;
 use std::time::Instant;
@@ -115,6 +116,7 @@ impl Picker {
             seed,
             robot_from_camera,
         };
+        let doubt = size_doubt::doubt(frame, boxes.iter().map(|(b, _)| *b), &self.config.fruit);
         let apples = boxes
             .into_par_iter()
             .enumerate()
@@ -125,6 +127,8 @@ impl Picker {
         let method = self.config.method;
         let mut answer = FrameAnswer::new(method, seed, id, &camera.frame_id, apples);
         answer.warnings.clone_from(&frame.frame().warnings);
+        answer.warnings.extend(camera.doubts());
+        answer.warnings.extend(doubt);
         Ok(answer)
     }
 }

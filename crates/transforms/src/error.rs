@@ -128,6 +128,30 @@ pub enum TransformContentError {
         /// What `schema` holds, as JSON; `None` where there is none.
         found: Option<String>,
     },
+    /// It is no text.
+    #[error("{place}: {problem}; give a transform's file in a form that `pomona inspect` knows")]
+    Form {
+        /// Where in the file.
+        place: String,
+        /// What is wrong there.
+        problem: String,
+    },
+    /// It is of another program's form, or of none.
+    #[error("{message}")]
+    Foreign {
+        /// What is wrong with it: place, problem and remedy.
+        message: String,
+    },
+    /// It leads to another kind of frame: a camera on the flange is not one on the base.
+    #[error(
+        "it leads to the robot's {found} (`to_kind`), where its {expected} is asked for; give the other transform, or the flange's pose beside it"
+    )]
+    OtherKind {
+        /// What it leads to.
+        found: String,
+        /// What is asked for.
+        expected: &'static str,
+    },
     /// A frame's id is empty.
     #[error("`{field}` is empty; name the frame, as the camera's or the robot's programs do")]
     NoFrameId {

@@ -2,7 +2,8 @@
 
 use crate::schema::{SCHEMA, excessive_length_m};
 use crate::{
-    FrameTag, NamedTransform, Transform, TransformContentError, TransformFileError, uncertain,
+    FlangeFrame, FrameTag, NamedTransform, Transform, TransformContentError, TransformFileError,
+    uncertain,
 };
 use nalgebra::{Matrix4, Matrix6};
 use pomona_files::write_atomically;
@@ -19,6 +20,9 @@ struct Document {
     schema: String,
     to: String,
     from: String,
+    /// The kind of the frame that `to` names, where it is not the robot's base.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    to_kind: Option<String>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     translation_m: Option<[f64; 3]>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -91,6 +95,20 @@ fn at(path: &Path, source: TransformContentError) -> TransformFileError {
 fn parse<To: FrameTag, From: FrameTag>(
     bytes: &[u8],
 ) -> Result<NamedTransform<To, From>, TransformContentError> {
+    let (named, to_kind) = parse_any(bytes)?;
+    match to_kind {
+        Some(found) if found != To::NAME => Err(TransformContentError::OtherKind {
+            found,
+            expected: To::NAME,
+        }),
+        _ => Ok(named),
+    }
+}
+
+/// The transform, and the kind of the frame that it leads to, where the file says it.
+pub(crate) fn parse_any<To: FrameTag, From: FrameTag>(
+    bytes: &[u8],
+) -> Result<(NamedTransform<To, From>, Option<String>), TransformContentError> {
     let syntax = |e: serde_json::Error| json_error(&e, bytes);
     // The schema first: in a file of another one, its fields are not what is wrong.
     let value: Value = serde_json::from_slice(bytes).map_err(syntax)?;
@@ -111,7 +129,7 @@ fn parse<To: FrameTag, From: FrameTag>(
         ..NamedTransform::new(transform, document.to, document.from)
     };
     check(&named, field)?;
-    Ok(named)
+    Ok((named, document.to_kind))
 }
 
 fn format<To: FrameTag, From: FrameTag>(
@@ -122,6 +140,7 @@ fn format<To: FrameTag, From: FrameTag>(
         schema: SCHEMA.to_owned(),
         to: named.to.clone(),
         from: named.from.clone(),
+        to_kind: (To::NAME == FlangeFrame::NAME).then(|| To::NAME.to_owned()),
         translation_m: Some(named.transform.translation_m().into()),
         quaternion_xyzw: Some(named.transform.quaternion_xyzw()),
         matrix: None,

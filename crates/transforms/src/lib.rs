@@ -69,6 +69,7 @@
 //!   Comput. 7(4), doi 10.1137/0907079: the rotation nearest to a matrix.
 //! - REP 103, "Standard Units of Measure and Coordinate Conventions": the axes of the frames.
 
+mod any_form;
 mod direction;
 mod error;
 mod euler;
@@ -87,6 +88,7 @@ mod transform;
 pub mod twist;
 mod uncertain;
 
+pub use any_form::AnyTransform;
 pub use direction::Direction;
 pub use error::{CovarianceError, TransformContentError, TransformError, TransformFileError};
 pub use euler::EulerZyx;

@@ -19,7 +19,10 @@ use nalgebra::Matrix6;
 /// In place of the last two it may give `"matrix": [[…], […], […], [0, 0, 0, 1]]`, the
 /// homogeneous matrix row by row, its translation in metres. It may end with the covariance,
 /// `"covariance": {"perturbation": "left", "order": "rotation_translation", "matrix": […]}`, six
-/// rows of six, with the convention of [`UncertainTransform`].
+/// rows of six, with the convention of [`UncertainTransform`]. One that leads to the robot's flange says so,
+/// `"to_kind": "flange"`, and is then refused where one to the base is asked for.
+///
+/// [`AnyTransform`](crate::AnyTransform) reads this form and those of other programs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NamedTransform<To: FrameTag, From: FrameTag> {
     /// The transform.

@@ -83,6 +83,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<SampleSet, Malformed> {
             flange: document.flange_frame,
             target: document.target_frame,
         },
+        warnings: Vec::new(),
     })
 }
 

@@ -96,7 +96,7 @@ fn what_is_wrong_is_named_with_its_place() {
             &["s1", "camera_from_target", "twice"],
         ),
         (POSES, "[0,-1,0,0.2]", "[0,1,0,0.2]", &["s1", "mirrors"]),
-        (POINTS_CSV, "robot_x_m", "robot_x", &["line 1", "robot_x"]),
+        (POINTS_CSV, "robot_x_m", "robot_u", &["line 1", "robot_u"]),
         (
             POINTS_CSV,
             "camera_x_m",

@@ -6,3 +6,4 @@ mod figures;
 mod files;
 mod points;
 mod poses;
+mod slips;

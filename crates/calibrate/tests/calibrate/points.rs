@@ -160,7 +160,7 @@ fn a_scale_of_a_few_per_cent_is_refused_and_a_small_one_told() {
             .quality
             .warnings
             .iter()
-            .any(|w| w.contains("depth scale"))
+            .any(|w| w.message.contains("depth scale"))
     );
 }
 

@@ -293,7 +293,12 @@ fn several_wrong_samples_are_left_out() {
     assert_eq!(rejected(4), Some(RejectionCause::TargetFlipped));
     assert_eq!(rejected(5), Some(RejectionCause::PlaceFarOff));
     assert_eq!((0..15).filter(|i| rejected(*i).is_some()).count(), 6);
-    assert!(quality.warnings.iter().any(|w| w.contains("common cause")));
+    assert!(
+        quality
+            .warnings
+            .iter()
+            .any(|w| w.message.contains("common cause"))
+    );
     assert!(off(&found.camera.transform.isometry(), &scene.camera) < 0.01);
 }
 

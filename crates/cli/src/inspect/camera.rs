@@ -1,13 +1,15 @@
 use super::facts::Facts;
+use crate::frame_arguments::FrameArguments;
 use pomona_cloud::Camera;
 use std::path::Path;
 
 /// A camera, as JSON or YAML.
-pub(super) fn facts(path: &Path) -> anyhow::Result<Facts> {
-    let read = Camera::read_with_warnings(path)?;
+pub(super) fn facts(path: &Path, read: FrameArguments) -> anyhow::Result<Facts> {
+    let read = Camera::read_with(path, &read.camera())?;
     let camera = read.value;
     let mut facts = Facts::new(path, "camera");
     facts.warn(read.warnings);
+    facts.warn(camera.doubts());
     facts.size(camera.width, camera.height);
     add_camera(&mut facts, &camera);
     Ok(facts)

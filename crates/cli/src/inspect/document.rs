@@ -1,9 +1,12 @@
 use super::camera;
 use super::facts::{Facts, range};
+use super::robot::{self, Foreign};
+use crate::frame_arguments::FrameArguments;
 use crate::summary::Summary;
 use anyhow::{anyhow, bail};
+use pomona::Config;
 use pomona::record::{PicksRecord, SCHEMA};
-use pomona::{Config, RobotFromCamera};
+use pomona_calibrate::{RECORD_SCHEMA, SAMPLES_SCHEMA};
 use pomona_cloud::{BoxChoice, BoxImage, CocoDataset, ColorImage, Frame, read_boxes};
 use pomona_scenes::{TRUTH_SCHEMA, Truth};
 use pomona_transforms::SCHEMA as TRANSFORM_SCHEMA;
@@ -12,7 +15,11 @@ use std::path::{Path, PathBuf};
 
 /// Whether a file that begins so holds boxes: XML, or a text named so.
 pub(super) fn is_box_file(path: &Path, start: &[u8]) -> bool {
-    let is_xml = start.trim_ascii_start().starts_with(b"<");
+    let trimmed = start.trim_ascii_start();
+    let is_urdf = [&b"<origin"[..], b"<joint"]
+        .iter()
+        .any(|tag| trimmed.starts_with(tag));
+    let is_xml = trimmed.starts_with(b"<") && !is_urdf;
     let is_text = path
         .extension()
         .is_some_and(|ending| ending.eq_ignore_ascii_case("txt"));
@@ -35,23 +42,26 @@ fn is_yolo(start: &[u8]) -> bool {
 }
 
 /// A JSON file, by its `schema`, or else by its fields.
-pub(super) fn json(path: &Path) -> anyhow::Result<Facts> {
+pub(super) fn json(path: &Path, read: FrameArguments) -> anyhow::Result<Facts> {
     let bytes =
         std::fs::read(path).map_err(|e| anyhow!("{}: {e}; check the path", path.display()))?;
     let refused = |e: serde_json::Error| anyhow!("{}: {e}; write the file again", path.display());
-    let value: Value = serde_json::from_slice(&bytes).map_err(refused)?;
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&bytes);
+    let value: Value = serde_json::from_slice(bytes).map_err(refused)?;
     match value.get("schema").map(|s| s.as_str().unwrap_or_default()) {
         Some(SCHEMA) => Ok(record(
             path,
-            &serde_json::from_slice(&bytes).map_err(refused)?,
+            &serde_json::from_slice(bytes).map_err(refused)?,
         )),
         Some(TRUTH_SCHEMA) => Ok(truth(path, &Truth::read(path)?)),
-        Some(TRANSFORM_SCHEMA) => Ok(transform(path, &RobotFromCamera::read(path)?)),
+        Some(TRANSFORM_SCHEMA) => robot::transform(path),
+        Some(SAMPLES_SCHEMA) => robot::samples(path),
+        Some(RECORD_SCHEMA) => robot::report(path, &value),
         Some(schema) if schema.starts_with("pomona.detections/") => Ok(detections(path, &value)),
         Some(other) => bail!(
-            "{}: its schema is `{other}`; known are {}, {TRUTH_SCHEMA} and {TRANSFORM_SCHEMA}",
-            path.display(),
-            SCHEMA
+            "{}: its schema is `{other}`; known are {SCHEMA}, {TRUTH_SCHEMA}, {TRANSFORM_SCHEMA}, \
+             {SAMPLES_SCHEMA} and {RECORD_SCHEMA}",
+            path.display()
         ),
         None if holds_boxes(&value) => {
             let names_images = value["images"][0].get("file_name").is_some();
@@ -61,7 +71,18 @@ pub(super) fn json(path: &Path) -> anyhow::Result<Facts> {
                 boxes(path)
             }
         }
-        None => camera::facts(path),
+        None => by_words(path, read),
+    }
+}
+
+/// YAML or JSON of other programs.
+pub(super) fn by_words(path: &Path, read: FrameArguments) -> anyhow::Result<Facts> {
+    let bytes =
+        std::fs::read(path).map_err(|e| anyhow!("{}: {e}; check the path", path.display()))?;
+    match Foreign::of(&String::from_utf8_lossy(&bytes)) {
+        Foreign::Camera => camera::facts(path, read),
+        Foreign::Samples => robot::samples(path),
+        Foreign::Transform => robot::transform(path),
     }
 }
 
@@ -139,19 +160,6 @@ fn add_radii(facts: &mut Facts, radii: impl Iterator<Item = f64>) {
         let text = format!("{:.1} to {:.1} mm", low * 1000.0, high * 1000.0);
         facts.add("radius", vec![low, high], text);
     }
-}
-
-fn transform(path: &Path, named: &RobotFromCamera) -> Facts {
-    let mut facts = Facts::new(path, "transform");
-    facts.say("to", named.to.clone());
-    facts.say("from", named.from.clone());
-    let [x, y, z] = named.transform.translation_m().into();
-    let text = format!("{:.1} {:.1} {:.1} mm", x * 1000.0, y * 1000.0, z * 1000.0);
-    facts.add("translation", vec![x, y, z], text);
-    let quaternion = named.transform.quaternion_xyzw();
-    let text = quaternion.map(|c| format!("{c:.6}")).join(" ");
-    facts.add("quaternion_xyzw", quaternion.to_vec(), text);
-    facts
 }
 
 /// Settings, as TOML.

@@ -2,6 +2,7 @@ use super::camera::add_camera;
 use super::document;
 use super::facts::Facts;
 use super::image::add_fill;
+use crate::frame_arguments::FrameArguments;
 use crate::pick::PICKS;
 use crate::summary::plural;
 use pomona::DepthQuality;
@@ -10,23 +11,24 @@ use pomona_scenes::{TRUTH_FILE, Truth};
 use pomona_statistics::lower_median;
 use std::path::Path;
 
-pub(super) fn facts(path: &Path) -> anyhow::Result<Facts> {
+pub(super) fn facts(path: &Path, read: FrameArguments) -> anyhow::Result<Facts> {
     if path.join("rgb.txt").is_file() && path.join("depth.txt").is_file() {
         let mut facts = Facts::new(path, "TUM RGB-D folder");
         facts.say("frames", read_tum(path)?.len());
         return Ok(facts);
     }
     if path.join(PICKS).is_file() && Frame::depth_file(path).is_none() {
-        return document::json(&path.join(PICKS));
+        return document::json(&path.join(PICKS), read);
     }
-    frame(path)
+    frame(path, read)
 }
 
-fn frame(path: &Path) -> anyhow::Result<Facts> {
-    let frame = Frame::read(path)?;
+fn frame(path: &Path, read: FrameArguments) -> anyhow::Result<Facts> {
+    let frame = read.read(path)?;
     let mut facts = Facts::new(path, "RGB-D frame");
     facts.say("id", frame.id.clone());
     facts.warn(frame.warnings.iter().cloned());
+    facts.warn(frame.camera.doubts());
     facts.size(frame.color.width, frame.color.height);
     add_camera(&mut facts, &frame.camera);
     add_fill(&mut facts, &frame.depth);

@@ -1,6 +1,7 @@
 use super::files::FileChoice;
 use crate::apple_cloud::CloudChoice;
 use crate::detector::DetectorArguments;
+use crate::frame_arguments::FrameArguments;
 use crate::settings::SettingsArguments;
 use crate::wood::{SegmenterChoice, parse_segmenter};
 use clap::Args;
@@ -21,11 +22,11 @@ Examples:
   pomona pick frames/left frames/right --fuse --out out    out/fused.json beside out/left and out/right
   pomona pick frames/* --out out --json | jq '.[].picks[].direction'
 
-With --fuse, the frames show one tree. The camera's pose is robot_from_camera.json in the frame's folder, else that \
-of --transform (a fixed camera).
+The camera's pose is robot_from_camera.json in the frame's folder, else that of --transform: of a fixed camera, or of one \
+on the gripper where the folder has base_from_flange.json. With --fuse, the frames show one tree.
 
-A frame is a folder with color.png (or .jpg), depth.png (16 bit, registered to colour), camera.json and, \
-optionally, boxes (boxes.xml VOC, boxes.json COCO or boxes.txt YOLO). Without boxes the detector finds the apples, and \
+A frame is a folder with color.png (or .jpg), depth.png (16 bit, registered to colour), camera.json (or a camera \
+file of ROS, OpenCV, Kalibr, Open3D or RealSense) and, optionally, boxes (boxes.xml VOC, boxes.json COCO or boxes.txt YOLO). Without boxes the detector finds the apples, and \
 the depth check marks false ones: see `detection` in `pomona config`.
 
 In the table, `angle` is the angle of the direction in the image (0 right, 90 up) and `away` its angle out of the \
@@ -65,12 +66,14 @@ pub(crate) struct PickArguments {
     /// Seed of the random numbers.
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(super) seed: u64,
-    /// Transform from the camera frame to the robot frame; adds the answers in the robot frame.
+    /// Transform from the camera frame to the robot frame, in a form that `pomona inspect` knows; adds the answers in the
+    /// robot frame. With the camera on the gripper: `flange_from_camera` of `pomona calibrate --kind eye-in-hand`, and in
+    /// each frame's folder the flange's pose at the shot, `base_from_flange.json`.
     #[arg(long, value_name = "FILE")]
     pub(super) transform: Option<PathBuf>,
     /// Plan paths and picking order for a robot with these settings (see `pomona config --robot`); adds gripper,
     /// approach, clearance and order to the record, and the paths to the picture.
-    #[arg(long, value_name = "FILE", requires = "transform")]
+    #[arg(long, value_name = "FILE")]
     pub(super) robot: Option<PathBuf>,
     /// Also write the plan as ROS 2 and `MoveIt` messages, ros-*.yaml for `ros2 topic pub`.
     #[arg(long, requires = "robot")]
@@ -97,6 +100,8 @@ pub(crate) struct PickArguments {
     /// none, or numbers such as 0,3.
     #[arg(long, value_name = "WHICH", default_value = "best")]
     pub(super) clouds: CloudChoice,
+    #[command(flatten)]
+    pub(super) frame: FrameArguments,
     #[command(flatten)]
     pub(super) detector: DetectorArguments,
     #[command(flatten)]

@@ -1,9 +1,10 @@
 use super::arguments::PickArguments;
 use super::files::{self, RobotOutput};
 use super::jobs::Job;
+use crate::camera_pose::CameraPoses;
 use crate::terminal::Terminal;
 use crate::wood::{self, SegmenterChoice};
-use anyhow::anyhow;
+use anyhow::{anyhow, bail};
 use pomona::{
     ApproachConfig, CheckedFrame, Config, DetectedApples, FrameAnswer, Picker, Robot,
     RobotFromCamera, Warning, WarningCode, find_apples,
@@ -18,7 +19,7 @@ use std::time::Instant;
 /// What is the same for all frames of a run.
 pub(super) struct Session<'a> {
     picker: Picker,
-    transform: Option<RobotFromCamera>,
+    poses: CameraPoses,
     robot: Option<Robot>,
     /// Opened when the first frame needs it.
     detector: OnceCell<Box<dyn Detector>>,
@@ -31,11 +32,7 @@ impl<'a> Session<'a> {
     pub(super) fn new(arguments: &'a PickArguments, config: Config) -> anyhow::Result<Self> {
         Ok(Self {
             picker: Picker::new(config)?,
-            transform: arguments
-                .transform
-                .as_ref()
-                .map(RobotFromCamera::read)
-                .transpose()?,
+            poses: CameraPoses::read(arguments.transform.as_deref())?,
             robot: arguments
                 .robot
                 .as_ref()
@@ -51,20 +48,34 @@ impl<'a> Session<'a> {
         self.picker.config()
     }
 
-    /// The transform that was given for all frames.
-    pub(super) fn transform(&self) -> Option<&RobotFromCamera> {
-        self.transform.as_ref()
+    /// Where the cameras are.
+    pub(super) fn poses(&self) -> &CameraPoses {
+        &self.poses
     }
 
-    /// Reads a frame, answers it, plans the robot's way to its apples, and writes its files, all or none.
+    /// Reads a frame, answers it, plans the robot's way to its apples, and writes its files, all or none. The answer, and
+    /// the pose of the frame's camera where there is one.
     pub(super) fn run(
         &self,
         job: &Job,
-        pose: Option<&RobotFromCamera>,
         terminal: Terminal,
-    ) -> anyhow::Result<FrameAnswer> {
+    ) -> anyhow::Result<(FrameAnswer, Option<RobotFromCamera>)> {
         let start = Instant::now();
-        let frame = self.read(&job.frame)?;
+        let pose = self.poses.of(&job.frame)?;
+        let mut frame = self.read(&job.frame)?;
+        frame.warnings.extend(self.poses.unused(&job.frame));
+        let pose = match pose {
+            Some(pose) => {
+                let camera = pose.of_camera(&frame.camera.frame_id)?;
+                Some(camera.append_to(&mut frame.warnings))
+            }
+            None if self.robot.is_some() => bail!(
+                "{}: no pose of its camera: --robot needs --transform FILE, or robot_from_camera.json in the frame's folder",
+                job.frame.display()
+            ),
+            None => None,
+        };
+        let pose = pose.as_ref();
         let frame = CheckedFrame::new(&frame)?;
         let id = &frame.frame().id;
         log::info!("{id}: read in {:.0?}", start.elapsed());
@@ -112,7 +123,7 @@ impl<'a> Session<'a> {
             terminal,
         )?;
         log::info!("{id}: written in {:.0?}", start.elapsed());
-        Ok(answer)
+        Ok((answer, pose.cloned()))
     }
 
     fn read(&self, folder: &Path) -> anyhow::Result<Frame> {
@@ -123,7 +134,7 @@ impl<'a> Session<'a> {
             None => BoxSource::Own,
         };
         let choice = arguments.detector.box_choice();
-        Ok(Frame::read_with(folder, &boxes, &choice)?)
+        Ok(arguments.frame.read_with(folder, boxes, choice)?)
     }
 
     /// What the detector finds, where the frame has no boxes or the command line asks for it.

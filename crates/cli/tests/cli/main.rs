@@ -10,6 +10,8 @@ mod bad_frames;
 mod binary;
 mod box_files;
 mod calibrate;
+mod camera_poses;
+mod cameras;
 mod convert;
 mod detect;
 mod detected;

@@ -1,8 +1,7 @@
 //! Which image of a box file is the one whose boxes are wanted.
 
 use super::parsed::{ImageBoxes, Parsed};
-use crate::Frame;
-use crate::frame::folder_name;
+use crate::folder::{COLOR_FILES, folder_name};
 use pomona_files::{Malformed, Warning, WarningCode};
 use std::path::{Path, PathBuf};
 
@@ -198,9 +197,7 @@ impl BoxImage {
                 None => Fit::Name,
             });
         }
-        let is_frame = Frame::COLOR_FILES
-            .iter()
-            .any(|f| own.eq_ignore_ascii_case(f));
+        let is_frame = COLOR_FILES.iter().any(|f| own.eq_ignore_ascii_case(f));
         let stem = stem(named);
         let same = stem.eq_ignore_ascii_case(stem_of(&own))
             || (is_frame && stem.eq_ignore_ascii_case(&folder));

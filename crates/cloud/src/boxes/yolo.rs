@@ -94,7 +94,7 @@ fn bounds(numbers: &[f64]) -> ([f64; 4], f64) {
     if numbers.len() < FEWEST_OF_POLYGON {
         let score = numbers.get(4).copied().unwrap_or(1.0);
         return (
-            from_centre([numbers[0], numbers[1], numbers[2], numbers[3]]),
+            yolo_doubts::from_centre([numbers[0], numbers[1], numbers[2], numbers[3]]),
             score,
         );
     }
@@ -109,11 +109,6 @@ fn bounds(numbers: &[f64]) -> ([f64; 4], f64) {
         edges[3] = edges[3].max(corner[1]);
     }
     (edges, score)
-}
-
-/// The edges of a box by its centre and size.
-pub(super) fn from_centre([cx, cy, w, h]: [f64; 4]) -> [f64; 4] {
-    [cx - 0.5 * w, cy - 0.5 * h, cx + 0.5 * w, cy + 0.5 * h]
 }
 
 pub(super) fn format(boxes: &[PixelBox], width: usize, height: usize) -> String {

@@ -1,6 +1,5 @@
 //! Whether numbers that were read as YOLO's can be meant so: other programs write the same numbers in another order.
 
-use super::yolo::from_centre;
 use pomona_files::{Warning, WarningCode};
 
 /// How far boxes may reach beyond the image, in shares of it: labelling tools leave edges outside by less.
@@ -63,6 +62,11 @@ pub(super) fn of(lines: &[Vec<f64>], file: &str) -> Option<Warning> {
 fn lies_in_image([x0, y0, x1, y1]: [f64; 4]) -> bool {
     let inside = |share: f64| (-BEYOND..=1.0 + BEYOND).contains(&share);
     [x0, y0, x1, y1].into_iter().all(inside) && x0 < x1 && y0 < y1
+}
+
+/// The edges of a box by its centre and size.
+pub(super) fn from_centre([cx, cy, w, h]: [f64; 4]) -> [f64; 4] {
+    [cx - 0.5 * w, cy - 0.5 * h, cx + 0.5 * w, cy + 0.5 * h]
 }
 
 #[cfg(test)]

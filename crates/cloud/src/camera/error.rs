@@ -26,7 +26,7 @@ pub enum CameraError {
     },
     /// A distortion model that is not known here.
     #[error(
-        "distortion model `{model}` is not known; use plumb_bob (or brown_conrady) or rational_polynomial, or undistort the images and leave `distortion` out"
+        "distortion model `{model}` is not known; use plumb_bob (or brown_conrady, radtan), rational_polynomial, equidistant (or fisheye, kannala_brandt), inverse_brown_conrady or none, or undistort the images and leave `distortion` out"
     )]
     UnknownModel {
         /// The model's name as it was given.
@@ -43,6 +43,26 @@ pub enum CameraError {
         expected: &'static str,
         /// How many there are.
         found: usize,
+    },
+    /// Coefficients of a thin prism or of a tilted sensor, which are not modelled.
+    #[error(
+        "the thin-prism and tilt coefficients of distortion model `{model}` (from the 9th) are not zero and are not known here; calibrate without them, or undistort the images and leave `distortion` out"
+    )]
+    ThinPrism {
+        /// The model's name.
+        model: String,
+    },
+    /// A pixel whose ray is so far off the axis that no lens without a fisheye model sees it.
+    #[error(
+        "pixel ({u}, {v}) would look {off_axis_deg:.0}° away from the axis, which no such lens does; copy focal lengths and principal point, in pixels, and the image size again"
+    )]
+    OffAxis {
+        /// Column of the pixel.
+        u: f64,
+        /// Row of the pixel.
+        v: f64,
+        /// Angle between its ray and the axis, degrees.
+        off_axis_deg: f64,
     },
     /// A distortion that cannot be inverted over the whole image.
     #[error(

@@ -1,31 +1,36 @@
-use super::{Camera, json, ros};
+use super::options::CameraOptions;
+use super::{Camera, json, yaml};
 use crate::CloudError;
 use pomona_files::{Malformed, WithWarnings, write_atomically};
 use std::path::Path;
 
 impl Camera {
-    /// Reads a camera: the project's JSON, Open3D's intrinsic JSON, or a ROS
-    /// `CameraInfo` in YAML, recognised by extension and content.
+    /// Reads a camera: the project's JSON, Open3D's intrinsic JSON, the intrinsics of `RealSense` as JSON, a ROS
+    /// `CameraInfo` in YAML or JSON, the file of ROS' `camera_calibration`, OpenCV's `FileStorage` or Kalibr's camchain
+    /// in YAML, recognised by extension and content.
     ///
-    /// ROS and Open3D files do not say how depth is stored; then a depth unit is
-    /// one millimetre, the default of both. [`Camera::read_with_warnings`] tells what was assumed.
+    /// Where the file does not say how depth is stored, a unit is one millimetre, and where it describes raw and
+    /// rectified images, the images are raw; [`Camera::read_with`] tells what was assumed.
     ///
     /// # Errors
     ///
     /// [`CloudError::File`], [`CloudError::Camera`].
     pub fn read(path: impl AsRef<Path>) -> Result<Self, CloudError> {
-        Ok(Self::read_with_warnings(path)?.value)
+        Ok(Self::read_with(path, &CameraOptions::default())?.value)
     }
 
-    /// As [`Camera::read`], with what the file leaves open and had to be assumed.
+    /// As [`Camera::read`], with what is known beside the file, and with what had to be assumed all the same.
     ///
     /// # Errors
     ///
-    /// [`CloudError::File`], [`CloudError::Camera`].
-    pub fn read_with_warnings(path: impl AsRef<Path>) -> Result<WithWarnings<Self>, CloudError> {
+    /// [`CloudError::File`], also where the options contradict the file; [`CloudError::Camera`].
+    pub fn read_with(
+        path: impl AsRef<Path>,
+        options: &CameraOptions,
+    ) -> Result<WithWarnings<Self>, CloudError> {
         let path = path.as_ref();
         let bytes = pomona_files::read(path)?;
-        let camera = Self::parse(path, &bytes).map_err(|fault| fault.at(path))?;
+        let camera = Self::parse(path, &bytes, options).map_err(|fault| fault.at(path))?;
         camera
             .value
             .validate()
@@ -51,7 +56,11 @@ impl Camera {
         Ok(())
     }
 
-    pub(super) fn parse(path: &Path, bytes: &[u8]) -> Result<WithWarnings<Self>, Malformed> {
+    pub(super) fn parse(
+        path: &Path,
+        bytes: &[u8],
+        options: &CameraOptions,
+    ) -> Result<WithWarnings<Self>, Malformed> {
         let text = std::str::from_utf8(bytes).map_err(|e| {
             let place = format!("byte {}", e.valid_up_to());
             Malformed::new(
@@ -60,11 +69,13 @@ impl Camera {
                 "give the camera as JSON or YAML text",
             )
         })?;
+        // Windows' editors begin a text with a byte order mark.
+        let text = text.trim_start_matches('\u{feff}');
         let extension = path.extension().unwrap_or_default().to_ascii_lowercase();
         if extension == "yaml" || extension == "yml" {
-            ros::parse(text)
+            yaml::parse(text, options)
         } else {
-            json::parse(text)
+            json::parse(text, options)
         }
     }
 }

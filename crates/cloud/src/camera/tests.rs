@@ -24,9 +24,16 @@ fn camera(model: &str, coefficients: &[f64]) -> Camera {
 const PLUMB_BOB: [f64; 5] = [-0.28, 0.07, 0.0012, -0.0007, 0.01];
 const RATIONAL: [f64; 8] = [0.52, -2.71, 0.0006, -0.0002, 1.51, 0.40, -2.52, 1.43];
 
-fn cameras() -> [Camera; 4] {
+const FISHEYE: [f64; 4] = [-0.01, 0.02, -0.003, 0.0005];
+
+fn cameras() -> [Camera; 6] {
     [
         camera("", &[]),
+        camera(
+            "inverse_brown_conrady",
+            &[-0.05, 0.06, 0.0004, 0.0007, -0.02],
+        ),
+        camera("equidistant", &FISHEYE),
         camera("plumb_bob", &PLUMB_BOB),
         camera("brown_conrady", &PLUMB_BOB),
         camera("rational_polynomial", &RATIONAL),
@@ -69,7 +76,7 @@ fn projects_as_opencv_does() {
 proptest! {
     #[test]
     fn deprojection_undoes_projection(
-        u in 0.0..639.0f64, v in 0.0..479.0f64, z in 0.1..5.0f64, which in 0..4usize,
+        u in 0.0..639.0f64, v in 0.0..479.0f64, z in 0.1..5.0f64, which in 0..6usize,
     ) {
         let camera = &cameras()[which];
         let point = camera.deproject(u, v, z);
@@ -138,7 +145,12 @@ fn cameras_that_cannot_be_computed_with_are_refused_by_field() {
         .contains("`depth_scale`")
     );
     assert!(error(Camera { width: 0, ..base }).contains("`width`"));
-    assert!(error(camera("fisheye", &[0.1; 4])).contains("`fisheye`"));
+    assert!(error(camera("ftheta", &[0.1; 4])).contains("`ftheta`"));
+    let far = Camera {
+        cx: 3000.0,
+        ..camera("", &[])
+    };
+    assert!(error(far).contains("away from the axis"));
     assert!(error(camera("plumb_bob", &[0.1; 3])).contains("3 are given"));
     assert!(error(camera("rational_polynomial", &[0.1; 5])).contains("5 are given"));
     assert!(error(camera("plumb_bob", &[f64::NAN; 5])).contains("distortion.coefficients"));
@@ -188,10 +200,53 @@ fn bytes_of_any_kind_are_a_camera_or_an_error() {
     let valid = json::format(&camera("plumb_bob", &PLUMB_BOB));
     for name in ["camera.json", "camera.yaml"] {
         for length in 0..valid.len() {
-            let _ = Camera::parse(Path::new(name), &valid.as_bytes()[..length]);
+            let _ = Camera::parse(
+                Path::new(name),
+                &valid.as_bytes()[..length],
+                &CameraOptions::default(),
+            );
             let mut changed = valid.clone().into_bytes();
             changed[length] = changed[length].wrapping_add(3);
-            let _ = Camera::parse(Path::new(name), &changed);
+            let _ = Camera::parse(Path::new(name), &changed, &CameraOptions::default());
+        }
+    }
+}
+
+#[test]
+fn fisheye_lenses_project_as_kannala_and_brandt_say() {
+    let camera = camera("equidistant", &FISHEYE);
+    // At 45° from the axis, in closed form.
+    let theta = std::f64::consts::FRAC_PI_4;
+    let [k1, k2, k3, k4] = FISHEYE;
+    let distance =
+        theta + k1 * theta.powi(3) + k2 * theta.powi(5) + k3 * theta.powi(7) + k4 * theta.powi(9);
+    let (u, v) = camera.project(&Point3::new(2.0, 0.0, 2.0)).unwrap();
+    assert!((u - (320.0 + 600.0 * distance)).abs() < 1e-9 && (v - 240.0).abs() < 1e-9);
+    let (x, y) = camera.ray(u, v).unwrap();
+    assert!((x - 1.0).abs() < 1e-9 && y.abs() < 1e-9);
+}
+
+#[test]
+fn the_inverse_model_leads_from_pixels_to_rays() {
+    let camera = camera("inverse_brown_conrady", &[-0.05, 0.0, 0.0, 0.0, 0.0]);
+    let (x, y) = camera.ray(320.0 + 300.0, 240.0).unwrap();
+    assert!((x - 0.5 * (1.0 - 0.05 * 0.25)).abs() < 1e-12 && y.abs() < 1e-12);
+}
+
+#[test]
+fn a_byte_order_mark_is_no_part_of_the_text() {
+    let dir = tempfile::tempdir().unwrap();
+    let written = camera("", &[]);
+    let text = format!("\u{feff}{}", json::format(&written));
+    for name in ["camera.json", "camera.yaml"] {
+        let path = dir.path().join(name);
+        if name.ends_with("json") {
+            std::fs::write(&path, &text).unwrap();
+            assert_eq!(Camera::read(&path).unwrap(), written);
+        } else {
+            let info = "\u{feff}width: 640\nheight: 480\nk: [600.0, 0.0, 320.0, 0.0, 610.0, 240.0, 0.0, 0.0, 1.0]\n";
+            std::fs::write(&path, info).unwrap();
+            assert_eq!(Camera::read(&path).unwrap().fx, 600.0);
         }
     }
 }

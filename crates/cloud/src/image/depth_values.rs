@@ -1,7 +1,5 @@
-use super::{npy, png, tiff};
-use crate::{CloudError, DepthImage};
+use crate::DepthImage;
 use pomona_files::Malformed;
-use std::path::Path;
 
 /// A depth image as a file holds it.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,24 +26,6 @@ const UNIT_M: f64 = 1e-4;
 const PLAUSIBLE_M: std::ops::Range<f64> = 0.05..200.0;
 
 impl DepthValues {
-    /// Reads a PNG of 16 bits, or a TIFF or NPY of 16 bits or in floating point, recognised by content.
-    ///
-    /// # Errors
-    ///
-    /// [`CloudError::File`], also for what is none of these, is cut short, or has more than 16 bits in use.
-    pub fn read(path: impl AsRef<Path>) -> Result<Self, CloudError> {
-        let path = path.as_ref();
-        let bytes = pomona_files::read(path)?;
-        let parsed = if tiff::is(&bytes) {
-            tiff::parse(&bytes)
-        } else if npy::is(&bytes) {
-            npy::parse(&bytes)
-        } else {
-            png::parse_depth(&bytes).map(Self::Units)
-        };
-        Ok(parsed.map_err(|fault| fault.at(path))?)
-    }
-
     /// Values of a file, in floating point or whole numbers.
     pub(super) fn new(
         width: usize,

@@ -8,7 +8,7 @@
 mod tally;
 
 use pomona::{CheckedFrame, Config, Picker};
-use pomona_cloud::{Frame, PixelBox, read_boxes};
+use pomona_cloud::{BoxChoice, BoxImage, Frame, PixelBox, read_boxes};
 use pomona_evaluate::{Subject, boxes_about, boxes_on_nothing};
 use pomona_scenes::AppleTruth;
 use rayon::prelude::*;
@@ -115,8 +115,9 @@ impl Pickers {
         let mut known: Vec<AppleTruth> = own.iter().map(known_by_box).collect();
         self.add(&frame.id, "apples, its own boxes", frame, own, table)?;
         if let Some(file) = apples {
-            let more = read_boxes(file, frame.color.width, frame.color.height)?;
-            known.extend(more.iter().map(known_by_box));
+            let image = BoxImage::new(frame.color.width, frame.color.height);
+            let more = read_boxes(file, &image, &BoxChoice::default())?;
+            known.extend(more.value.iter().map(known_by_box));
         }
         let boxes = boxes_on_nothing(&known, frame, EMPTY_BOXES_OF_FRAME, 0);
         self.add(&frame.id, "empty", frame, boxes, table)

@@ -136,6 +136,10 @@ fn answer_all(
 
 /// What to do about boxes that hold no apple, where there are any.
 fn empty_boxes(answer: &FrameAnswer) -> Option<String> {
+    // A detector's boxes are nobody's to take.
+    if answer.detection.is_some() {
+        return None;
+    }
     let empty = answer.apples.iter().filter(|a| a.status == Status::NoApple);
     let count = empty.count();
     let boxes = match count {

@@ -154,7 +154,8 @@ mod tests {
                 let message = &found.unwrap_or_else(|| panic!("{other:?}")).message;
                 let said = message.split("divide them by ").nth(1).unwrap();
                 let said: f64 = said.parse().unwrap();
-                assert!((said / factor - 1.0).abs() < 0.04, "{message}");
+                // Principal points of these cameras lie up to 3.5 % off the middle, and the message has two digits.
+                assert!((said / factor - 1.0).abs() < 0.05, "{message}");
             }
         }
     }

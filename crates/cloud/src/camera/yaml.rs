@@ -251,7 +251,7 @@ header:
     fn message(size: [usize; 2], k: &str, p: &str, region: &str) -> String {
         format!(
             "header: {{frame_id: optical}}\nwidth: {}\nheight: {}\ndistortion_model: plumb_bob\nd: [0.0, 0.0, 0.0, 0.0, 0.0]\n\
-             k: [{k}, 0.0, 0.0, 1.0]\np: [{p}, 0.0, 0.0, 0.0, 1.0, 0.0]\n{region}\n",
+             k: [{k}, 0.0, 0.0, 1.0]\np: [{p}, 0.0, 0.0, 1.0, 0.0]\n{region}\n",
             size[0], size[1]
         )
     }
@@ -272,7 +272,7 @@ header:
     fn binning_joins_pixels_of_the_sensor() {
         let no_p = NO_P.replace(", 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0", "");
         let text = message([1280, 960], SENSOR_K, NO_P, BINNED)
-            .replace(&format!("p: [{NO_P}, 0.0, 0.0, 0.0, 1.0, 0.0]"), "p: []");
+            .replace(&format!("p: [{NO_P}, 0.0, 0.0, 1.0, 0.0]"), "p: []");
         assert_eq!(no_p, "0.0");
         let read = of_images(&text, [640, 480]).unwrap();
         let camera = read.value;
